@@ -1,0 +1,177 @@
+//! The shape of an answer: what is visible at each pixel, as both paths write it.
+//!
+//! Only types and their layout live here: no predicate, no evaluation. Each path fills every
+//! field by its own arithmetic, so that comparing two buffers compares two computations.
+
+use crate::mesh::{Barycentric, TriangleId};
+use crate::pixel::{Pixel, Window};
+
+/// Which side of the triangle the eye sees.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Facing {
+    /// The corners run counter-clockwise as seen from the eye; V < 0.
+    Front,
+    /// The corners run clockwise as seen from the eye; V > 0.
+    Back,
+}
+
+impl Facing {
+    /// +1 for the front, −1 for the back: −sgn V.
+    pub const fn sign(self) -> i8 {
+        match self {
+            Self::Front => 1,
+            Self::Back => -1,
+        }
+    }
+}
+
+/// The arithmetic that the visible triangle's own coverage needed at a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub enum Level {
+    /// Certified by an f32 filter.
+    Single = 0,
+    /// Certified by an f64 filter.
+    Double = 1,
+    /// Decided in exact arithmetic, or a tie.
+    Exact = 2,
+}
+
+/// The visible triangle at a sample.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Visible {
+    /// Which triangle.
+    pub triangle: TriangleId,
+    /// Which of its sides the eye sees.
+    pub facing: Facing,
+    /// Level of its coverage decision; [`Level::Exact`] too where `tie` is set.
+    pub level: Level,
+    /// The sample lies exactly on one of its edges, or another covering triangle lies at exactly
+    /// the same depth there: the tie rule decided.
+    pub tie: bool,
+    /// Weights of its corners at the sample; relative error at most a few 2^-50.
+    pub barycentric: Barycentric,
+    /// Certain lower bound of the ray parameter t (t > 0, finite).
+    pub t_lo: f64,
+    /// Certain upper bound of the ray parameter t (finite).
+    pub t_hi: f64,
+}
+
+impl Visible {
+    /// The ray parameter: the middle of its certain interval.
+    pub fn t(&self) -> f64 {
+        self.t_lo + (self.t_hi - self.t_lo) * 0.5
+    }
+}
+
+/// All triangles that cross a sample's ray, at any depth.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct Cover {
+    /// How many cover the sample.
+    pub crossed: u32,
+    /// Σ sgn V over them: on a closed mesh, the winding number of the eye at every sample.
+    pub signed: i32,
+}
+
+/// How many decisions each level of arithmetic took, coverage and depth together.
+/// They depend on the order of the work and are reported, never stored in a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct LevelCounts {
+    /// Decisions that an f32 filter certified.
+    pub single: u64,
+    /// Decisions that an f64 filter certified.
+    pub double: u64,
+    /// Decisions that exact arithmetic took.
+    pub exact: u64,
+}
+
+impl LevelCounts {
+    /// Adds another tile's counts.
+    pub fn add(&mut self, other: Self) {
+        self.single += other.single;
+        self.double += other.double;
+        self.exact += other.exact;
+    }
+}
+
+/// What a visibility path is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub enum Counting {
+    /// Only the visible triangle.
+    #[default]
+    Nearest,
+    /// Also [`Cover`] at every pixel, which forbids culling by depth.
+    All,
+}
+
+/// The answer for every pixel of a window, row by row.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VisibilityBuffer {
+    /// Which pixels.
+    pub window: Window,
+    /// What is visible there; `None` where nothing is.
+    pub visible: Vec<Option<Visible>>,
+    /// Counts over all crossed triangles, when they were asked for.
+    pub cover: Option<Vec<Cover>>,
+    /// Decisions per level.
+    pub levels: LevelCounts,
+}
+
+/// One tile's part of a [`VisibilityBuffer`].
+#[derive(Clone, Debug)]
+pub struct VisibilityTile {
+    /// Which pixels.
+    pub window: Window,
+    /// As in [`VisibilityBuffer`].
+    pub visible: Vec<Option<Visible>>,
+    /// As in [`VisibilityBuffer`]; empty when not asked for.
+    pub cover: Vec<Cover>,
+    /// As in [`VisibilityBuffer`].
+    pub levels: LevelCounts,
+}
+
+impl VisibilityTile {
+    /// A tile in which nothing is visible yet.
+    pub fn empty(window: Window, counting: Counting) -> Self {
+        let cover = match counting {
+            Counting::Nearest => Vec::new(),
+            Counting::All => vec![Cover::default(); window.len()],
+        };
+        Self { window, visible: vec![None; window.len()], cover, levels: LevelCounts::default() }
+    }
+}
+
+impl VisibilityBuffer {
+    /// Puts tiles together that cover `window` exactly once.
+    pub fn from_tiles(window: Window, counting: Counting, tiles: Vec<VisibilityTile>) -> Self {
+        let mut visible = vec![None; window.len()];
+        let mut cover = match counting {
+            Counting::Nearest => None,
+            Counting::All => Some(vec![Cover::default(); window.len()]),
+        };
+        let mut levels = LevelCounts::default();
+        for tile in tiles {
+            levels.add(tile.levels);
+            let width = tile.window.width() as usize;
+            for row in 0..tile.window.height() {
+                let first = Pixel { x: tile.window.x0(), y: tile.window.y0() + row };
+                let to = window.index(first);
+                let from = row as usize * width;
+                visible[to..to + width].copy_from_slice(&tile.visible[from..from + width]);
+                if let Some(cover) = &mut cover {
+                    cover[to..to + width].copy_from_slice(&tile.cover[from..from + width]);
+                }
+            }
+        }
+        Self { window, visible, cover, levels }
+    }
+
+    /// What is visible at a pixel of the window.
+    pub fn at(&self, pixel: Pixel) -> Option<&Visible> {
+        self.visible[self.window.index(pixel)].as_ref()
+    }
+
+    /// Number of pixels at which a triangle is visible.
+    pub fn covered_pixels(&self) -> usize {
+        self.visible.iter().filter(|visible| visible.is_some()).count()
+    }
+}
