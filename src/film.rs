@@ -1,6 +1,20 @@
-//! The developed picture: named planes of samples over a window, ready to be written.
+//! The developed picture: named planes of samples over a window, and the files it is written to.
 //!
-//! A film knows nothing of scenes; it holds what files hold (f32 and u32) and nothing else.
+//! A film knows nothing of scenes; it holds what files hold (f32 and u32) and nothing else. EXR
+//! keeps every plane bit for bit, PNG the colours as 8-bit sRGB, NPY the triangle ids.
+
+mod check;
+mod error;
+mod exr;
+mod npy;
+mod png;
+mod write;
+
+pub use self::error::FilmError;
+pub use self::exr::{decode_exr, encode_exr};
+pub use self::npy::encode_npy_ids;
+pub use self::png::{ClipCount, encode_picture, encode_png};
+pub use self::write::{Format, check_target, format_of, load_exr, save, write_atomic};
 
 use crate::pixel::{Resolution, Window};
 
@@ -13,10 +27,25 @@ pub enum Samples {
     Uint(Vec<u32>),
 }
 
+impl Samples {
+    /// Number of samples.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Float(values) => values.len(),
+            Self::Uint(values) => values.len(),
+        }
+    }
+
+    /// Whether there is no sample.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+}
+
 /// One named plane, as an EXR channel names it: `R`, `Z`, `N.X`, `id.prim` …
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plane {
-    /// Channel name.
+    /// Channel name: 1 to 255 bytes, without a zero byte.
     pub name: String,
     /// One sample per pixel of the film's window.
     pub samples: Samples,

@@ -1,0 +1,117 @@
+//! 8-bit sRGB PNG: the picture as a screen shows it.
+//!
+//! Clamps to [0, 1] and counts what it clamped; no tone mapping, no alpha, no dithering.
+
+use ::png::{BitDepth, ColorType, Compression, Encoder, Filter, SrgbRenderingIntent};
+use rayon::prelude::*;
+
+use super::check::check_film;
+use super::{Film, FilmError, Samples};
+use crate::color::srgb_code;
+
+/// How many pixels the clamp to [0, 1] changed. A pixel may count in both.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ClipCount {
+    /// Pixels with a channel above 1.
+    pub above: u64,
+    /// Pixels with a channel below 0.
+    pub below: u64,
+}
+
+/// The window's pixels as the bytes of an 8-bit RGB PNG with an sRGB chunk, from the linear planes
+/// `R`, `G` and `B`; every other plane is ignored. With it, how much was clipped.
+///
+/// # Errors
+///
+/// [`FilmError::Plane`] without those planes, [`FilmError::NotFinite`] for the first infinite or
+/// NaN value by rows, [`FilmError::Inconsistent`] for a broken film.
+pub fn encode_png(film: &Film) -> Result<(Vec<u8>, ClipCount), FilmError> {
+    check_film(film)?;
+    let planes = [float_plane(film, "R")?, float_plane(film, "G")?, float_plane(film, "B")?];
+    let width = film.window.width() as usize;
+
+    // Encode by rows; the counts come back in row order, so the first fault is the topmost one.
+    let mut codes = vec![0_u8; film.window.len() * 3];
+    let rows: Vec<Result<ClipCount, Unencodable>> = codes
+        .par_chunks_mut(width * 3)
+        .enumerate()
+        .map(|(row, codes)| {
+            let range = row * width..(row + 1) * width;
+            encode_row(planes.map(|plane| &plane[range.clone()]), codes)
+        })
+        .collect();
+
+    let mut clipped = ClipCount::default();
+    for (row, counted) in (film.window.y0()..).zip(rows) {
+        let counted = counted.map_err(|fault| FilmError::NotFinite {
+            plane: ["R", "G", "B"][fault.channel],
+            x: film.window.x0() + fault.column as u32,
+            y: row,
+            value: fault.value,
+        })?;
+        clipped.above += counted.above;
+        clipped.below += counted.below;
+    }
+    Ok((compress(film.window.width(), film.window.height(), &codes)?, clipped))
+}
+
+/// An 8-bit sRGB picture, as it is, as the bytes of a PNG with an sRGB chunk.
+///
+/// # Errors
+///
+/// [`FilmError::Encode`] for an empty picture.
+pub fn encode_picture(picture: &image::RgbImage) -> Result<Vec<u8>, FilmError> {
+    compress(picture.width(), picture.height(), picture.as_raw())
+}
+
+fn float_plane<'film>(film: &'film Film, name: &'static str) -> Result<&'film [f32], FilmError> {
+    match film.plane(name) {
+        Some(Samples::Float(values)) => Ok(values),
+        _ => Err(FilmError::Plane { format: "PNG", plane: name, wanted: "floats" }),
+    }
+}
+
+/// A value without a code, by its place in the row.
+struct Unencodable {
+    column: usize,
+    channel: usize,
+    value: f32,
+}
+
+fn encode_row(planes: [&[f32]; 3], codes: &mut [u8]) -> Result<ClipCount, Unencodable> {
+    let mut clipped = ClipCount::default();
+    for (column, codes) in codes.chunks_exact_mut(3).enumerate() {
+        let (mut above, mut below) = (false, false);
+        for (channel, code) in codes.iter_mut().enumerate() {
+            let value = planes[channel][column];
+            if !value.is_finite() {
+                return Err(Unencodable { column, channel, value });
+            }
+            above |= value > 1.0;
+            below |= value < 0.0;
+            *code = srgb_code(f64::from(value));
+        }
+        clipped.above += u64::from(above);
+        clipped.below += u64::from(below);
+    }
+    Ok(clipped)
+}
+
+/// Row-major RGB codes to PNG bytes.
+fn compress(width: u32, height: u32, codes: &[u8]) -> Result<Vec<u8>, FilmError> {
+    let mut bytes = Vec::new();
+    let mut encoder = Encoder::new(&mut bytes, width, height);
+    encoder.set_color(ColorType::Rgb);
+    encoder.set_depth(BitDepth::Eight);
+    encoder.set_source_srgb(SrgbRenderingIntent::RelativeColorimetric);
+    encoder.set_compression(Compression::Fast);
+    encoder.set_filter(Filter::Adaptive);
+    encoder
+        .write_header()
+        .and_then(|mut writer| {
+            writer.write_image_data(codes)?;
+            writer.finish()
+        })
+        .map_err(|error| FilmError::Encode { format: "PNG", reason: error.to_string() })?;
+    Ok(bytes)
+}
