@@ -5,10 +5,12 @@
 
 pub mod camera;
 pub mod error;
+pub mod file;
 pub(crate) mod lattice;
 pub mod light;
 pub mod material;
 pub mod part;
+pub mod shapes;
 
 use crate::color::LinearRgb;
 use crate::mesh::{TriangleId, TriangleMesh};

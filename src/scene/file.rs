@@ -1,0 +1,3 @@
+//! The scene file as it is written.
+
+pub mod shape;
