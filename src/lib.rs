@@ -5,4 +5,5 @@ pub mod film;
 pub mod mesh;
 pub mod pixel;
 pub mod scene;
+pub mod shade;
 pub mod visibility;
