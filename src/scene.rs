@@ -8,6 +8,7 @@ pub mod error;
 pub(crate) mod lattice;
 pub mod light;
 pub mod material;
+pub mod obj;
 pub mod part;
 
 use crate::color::LinearRgb;
