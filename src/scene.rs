@@ -9,6 +9,7 @@ pub mod file;
 pub(crate) mod lattice;
 pub mod light;
 pub mod material;
+pub mod obj;
 pub mod part;
 pub mod shapes;
 

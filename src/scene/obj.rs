@@ -1,0 +1,94 @@
+//! Wavefront OBJ and MTL files: polygons, normals, texture coordinates, materials.
+//!
+//! Every statement is first read by a strict scan of our own, which knows lines and columns and
+//! what tobj gets wrong; tobj then reads the numbers from a normalised text, and both readings
+//! must agree. Nothing is dropped without a warning. Textures, curves, lines and points are not
+//! read.
+//!
+//! Format: Wavefront, "Advanced Visualizer Manual", appendix B1 (OBJ), and Ramey, Rose and
+//! Tyerman, "MTL material format".
+
+mod assembly;
+mod corner;
+mod indexing;
+mod materials;
+mod mtl;
+mod polygon;
+mod report;
+mod scan;
+mod smooth;
+mod statement;
+
+use crate::scene::error::{Place, SceneError};
+use crate::scene::material::Material;
+use crate::scene::part::MeshPart;
+use report::Report;
+use std::io;
+use std::path::Path;
+
+/// What an OBJ file and its material libraries hold.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ObjFile {
+    /// The triangles in file order; polygons are cut as `scene` files define it. Positions are
+    /// those that faces use, in order of first use.
+    pub part: MeshPart,
+    /// One material per entry of `part.material_names`, with that name. Names that no library
+    /// defines have the default coefficients.
+    pub materials: Vec<Material>,
+    /// What a user should know: sentences that begin with file and line. Bounded in number.
+    pub warnings: Vec<String>,
+}
+
+/// Reads an OBJ file and the libraries that it names, which are looked for beside it.
+///
+/// # Errors
+/// A file that cannot be read ([`crate::scene::error::Fault::Reading`]), or what [`parse`] finds.
+pub fn load(path: &Path) -> Result<ObjFile, Vec<SceneError>> {
+    let bytes = read(path).map_err(|error| {
+        let message = match error.kind() {
+            io::ErrorKind::NotFound => "the file does not exist".to_owned(),
+            io::ErrorKind::IsADirectory => "this is a folder, not an OBJ file".to_owned(),
+            _ => format!("the file cannot be read: {error}"),
+        };
+        vec![SceneError::reading(Place::file(path), message)]
+    })?;
+    parse(&bytes, path, &read)
+}
+
+/// Reads OBJ text. `path` names the file in messages and the folder of its libraries; `open`
+/// gives a library's bytes.
+///
+/// # Errors
+/// Faults of the text and of its libraries, each with its place; at most a screenful. A library
+/// that `open` cannot give is a warning.
+pub fn parse(
+    bytes: &[u8],
+    path: &Path,
+    open: &dyn Fn(&Path) -> io::Result<Vec<u8>>,
+) -> Result<ObjFile, Vec<SceneError>> {
+    let mut report = Report::default();
+    let text = statement::decode(bytes, path, &mut report).map_err(|error| vec![error])?;
+    let mut scan = scan::scan(&text, path, &mut report);
+    drop(text);
+    let materials = materials::resolve(&scan, path, open, &mut report);
+    if report.has_errors() {
+        return Err(report.into_errors());
+    }
+    let indexed = indexing::index(&mut scan).map_err(|message| {
+        let error = SceneError::scene(Place::file(path), message);
+        vec![error.with_help("this is a fault of the program; please report it with the file")]
+    })?;
+    let part = assembly::assemble(&scan, indexed, path, &mut report);
+    if report.has_errors() {
+        return Err(report.into_errors());
+    }
+    Ok(ObjFile { part, materials, warnings: report.into_warnings() })
+}
+
+/// The bytes of a file; folders are refused with the same error on every platform.
+fn read(path: &Path) -> io::Result<Vec<u8>> {
+    if path.is_dir() {
+        return Err(io::Error::new(io::ErrorKind::IsADirectory, "it is a folder"));
+    }
+    std::fs::read(path)
+}

@@ -1,0 +1,319 @@
+//! Our own strict reading of an OBJ text: what each statement is, where it is, and whether every
+//! index exists. Numbers are checked here and read by tobj, which gets only text that passed.
+//!
+//! Makes no triangles and reads no material library.
+
+use crate::mesh::NO_ATTRIBUTE;
+use crate::scene::error::{Place, SceneError};
+use crate::scene::obj::corner::{self, Kind};
+use crate::scene::obj::report::{Report, quote};
+use crate::scene::obj::statement::{Statements, Token};
+use std::collections::HashMap;
+use std::path::Path;
+
+/// What the text says, with file indices resolved to 0-based ones.
+#[derive(Debug, Default)]
+pub(super) struct Scan {
+    /// The `v`, `vt` and `vn` statements in their plainest form, in file order.
+    pub(super) attributes: String,
+    /// How many `v`, `vt` and `vn` there are.
+    pub(super) counts: [u32; 3],
+    /// The corners of all faces, one after the other.
+    pub(super) corners: Vec<Corner>,
+    /// The faces in file order.
+    pub(super) faces: Vec<Face>,
+    /// Names that `mtllib` gives.
+    pub(super) libraries: Vec<Name>,
+    /// Names that `usemtl` gives to at least one face, in order of first use.
+    pub(super) materials: Vec<Name>,
+}
+
+/// A corner's 0-based `v`, `vt` and `vn`; [`NO_ATTRIBUTE`] where it has none.
+pub(super) type Corner = [u32; 3];
+
+/// One `f` statement.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Face {
+    /// 1-based line.
+    pub(super) line: u32,
+    /// End of its corners in [`Scan::corners`]; they begin where the previous face's end.
+    pub(super) corners_end: usize,
+    /// Smoothing group; 0 is none.
+    pub(super) group: u32,
+    /// Position in [`Scan::materials`] or [`NO_ATTRIBUTE`].
+    pub(super) material: u32,
+}
+
+/// A name as written, and its line.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Name {
+    pub(super) text: String,
+    pub(super) line: u32,
+}
+
+impl Scan {
+    /// Each face with its corners.
+    pub(super) fn faces_with_corners(&self) -> impl Iterator<Item = (&Face, &[Corner])> {
+        let mut start = 0;
+        self.faces.iter().map(move |face| {
+            let corners = &self.corners[start..face.corners_end];
+            start = face.corners_end;
+            (face, corners)
+        })
+    }
+}
+
+/// Reads all statements. Faults go to the report; with any, the result is incomplete.
+pub(super) fn scan(text: &str, file: &Path, report: &mut Report) -> Scan {
+    let mut state = State::new();
+    let mut walk = Statements::new(text, file);
+    while walk.advance() {
+        if let Err(error) = state.read(&walk, file, report) {
+            report.error(error);
+        }
+    }
+    state.finish(file, report)
+}
+
+/// Words of the OBJ specification that make no surface of triangles.
+const FREE_FORM: &[&str] = &[
+    "vp", "cstype", "deg", "bmat", "step", "curv", "curv2", "surf", "parm", "trim", "hole", "scrv",
+    "sp", "end", "con", "bzp", "bsp", "cdc", "cdp", "res",
+];
+
+/// Words of the OBJ specification about display, layers and other files.
+const DISPLAY: &[&str] = &[
+    "bevel",
+    "c_interp",
+    "d_interp",
+    "lod",
+    "shadow_obj",
+    "trace_obj",
+    "ctech",
+    "stech",
+    "maplib",
+    "usemap",
+    "call",
+    "csh",
+    "mg",
+];
+
+/// What earlier statements mean for the following ones.
+struct State {
+    scan: Scan,
+    group: u32,
+    has_groups: bool,
+    material: u32,
+    /// A `usemtl` that no face has used yet.
+    next_material: Option<Name>,
+    material_positions: HashMap<String, u32>,
+    /// References to statements that had not come yet when they were read.
+    forward: Vec<(Kind, u32, Place)>,
+}
+
+impl State {
+    fn new() -> Self {
+        Self {
+            scan: Scan::default(),
+            group: 0,
+            has_groups: false,
+            material: NO_ATTRIBUTE,
+            next_material: None,
+            material_positions: HashMap::new(),
+            forward: Vec::new(),
+        }
+    }
+
+    fn read(
+        &mut self,
+        walk: &Statements<'_>,
+        file: &Path,
+        report: &mut Report,
+    ) -> Result<(), SceneError> {
+        let keyword = walk.keyword();
+        let line = keyword.line;
+        match keyword.text {
+            "v" => return self.read_position(walk, file, report),
+            "vt" => return self.read_attribute(walk, Kind::Uv, &[1, 2, 3]),
+            "vn" => {
+                if walk.values().iter().all(|token| token.text.parse() == Ok(0.0)) {
+                    report.warn(file, line, "a normal of length 0 counts as missing");
+                }
+                return self.read_attribute(walk, Kind::Normal, &[3]);
+            }
+            "f" | "fo" => return self.read_face(walk),
+            "s" => return self.read_group(walk),
+            "g" | "o" => {}
+            "mtllib" => match walk.name() {
+                name if name.is_empty() => report.warn(file, line, "`mtllib` names no file"),
+                text => self.scan.libraries.push(Name { text, line }),
+            },
+            "usemtl" => {
+                let text = walk.name();
+                if text.is_empty() {
+                    let sentence = "`usemtl` names no material; the default one is used";
+                    report.warn(file, line, sentence);
+                }
+                self.next_material = Some(Name { text, line });
+            }
+            "l" => report.warn(file, line, "lines (`l`) are no surfaces and left out"),
+            "p" => report.warn(file, line, "points (`p`) are no surfaces and left out"),
+            word if FREE_FORM.contains(&word) => {
+                report.warn(file, line, "free-form curves and surfaces are left out");
+            }
+            word if DISPLAY.contains(&word) => {
+                let sentence = format!("`{word}` statements have no effect here");
+                report.warn(file, line, &sentence);
+            }
+            word => {
+                let sentence = format!("unknown statements {} are left out", quote(word));
+                report.warn(file, line, &sentence);
+            }
+        }
+        Ok(())
+    }
+
+    /// `v x y z`, with a weight or a colour or both behind it.
+    fn read_position(
+        &mut self,
+        walk: &Statements<'_>,
+        file: &Path,
+        report: &mut Report,
+    ) -> Result<(), SceneError> {
+        let values = walk.values();
+        if values.len() > 3 {
+            // The weight is one of rational curves and surfaces; polygons do not divide by it.
+            if matches!(values.len(), 4 | 7) && values[3].text.parse() != Ok(1.0) {
+                let sentence = "the fourth number of `v` is a weight of free-form surfaces; it is \
+                                ignored";
+                report.warn(file, walk.keyword().line, sentence);
+            }
+            if values.len() >= 6 {
+                report.warn(file, walk.keyword().line, "vertex colours are left out");
+            }
+        }
+        self.read_attribute(walk, Kind::Position, &[3, 4, 6, 7])
+    }
+
+    /// Checks the numbers of a `v`, `vt` or `vn` and passes on those that count.
+    fn read_attribute(
+        &mut self,
+        walk: &Statements<'_>,
+        kind: Kind,
+        lengths: &[usize],
+    ) -> Result<(), SceneError> {
+        // A wrong statement still counts, so that later indices are not all wrong with it.
+        self.scan.counts[kind as usize] += 1;
+        let (keyword, values) = (walk.keyword(), walk.values());
+        if !lengths.contains(&values.len()) {
+            let wanted: Vec<String> = lengths.iter().map(ToString::to_string).collect();
+            let message = format!(
+                "`{}` has {} numbers; it takes {}",
+                keyword.text,
+                values.len(),
+                wanted.join(" or ")
+            );
+            return Err(SceneError::scene(walk.place(&keyword), message));
+        }
+        for token in values {
+            walk.number(token)?;
+        }
+        let attributes = &mut self.scan.attributes;
+        let width = if kind == Kind::Uv { 2 } else { 3 };
+        attributes.push_str(keyword.text);
+        for position in 0..width {
+            attributes.push(' ');
+            attributes.push_str(values.get(position).map_or("0", |token| token.text));
+        }
+        attributes.push('\n');
+        Ok(())
+    }
+
+    fn read_face(&mut self, walk: &Statements<'_>) -> Result<(), SceneError> {
+        let (keyword, values) = (walk.keyword(), walk.values());
+        if values.len() < 3 {
+            let message = format!("a face of {} corners; it needs at least 3", values.len());
+            return Err(SceneError::scene(walk.place(&keyword), message));
+        }
+        self.use_material();
+        for token in values {
+            let corner = self.read_corner(walk, token)?;
+            self.scan.corners.push(corner);
+        }
+        self.scan.faces.push(Face {
+            line: keyword.line,
+            corners_end: self.scan.corners.len(),
+            group: self.group,
+            material: self.material,
+        });
+        Ok(())
+    }
+
+    fn read_corner(
+        &mut self,
+        walk: &Statements<'_>,
+        token: &Token<'_>,
+    ) -> Result<Corner, SceneError> {
+        let fault = |message: String| SceneError::scene(walk.place(token), message);
+        let written = corner::parse(token.text).map_err(fault)?;
+        let mut resolved = [NO_ATTRIBUTE; 3];
+        for kind in Kind::ALL {
+            let Some(index) = written[kind as usize] else { continue };
+            let count = self.scan.counts[kind as usize];
+            let index = corner::resolve(kind, index, count).map_err(fault)?;
+            if index >= count {
+                self.forward.push((kind, index, walk.place(token)));
+            }
+            resolved[kind as usize] = index;
+        }
+        Ok(resolved)
+    }
+
+    /// `s N`, `s on` (group 1), `s off` and `s 0` (none).
+    fn read_group(&mut self, walk: &Statements<'_>) -> Result<(), SceneError> {
+        self.has_groups = true;
+        let word = walk.values().first().map_or("", |token| token.text);
+        self.group = match word {
+            "off" | "null" => 0,
+            "on" => 1,
+            number => number.parse().map_err(|_| {
+                let place = walk.place(walk.values().first().unwrap_or(&walk.keyword()));
+                let message = format!("{} is not a smoothing group", quote(number));
+                SceneError::scene(place, message).with_help("write a number from 0 on, or `off`")
+            })?,
+        };
+        Ok(())
+    }
+
+    /// Gives the last `usemtl` its position, now that a face uses it.
+    fn use_material(&mut self) {
+        let Some(name) = self.next_material.take() else { return };
+        if name.text.is_empty() {
+            self.material = NO_ATTRIBUTE;
+        } else if let Some(&position) = self.material_positions.get(&name.text) {
+            self.material = position;
+        } else {
+            self.material = self.scan.materials.len() as u32;
+            self.material_positions.insert(name.text.clone(), self.material);
+            self.scan.materials.push(name);
+        }
+    }
+
+    fn finish(mut self, file: &Path, report: &mut Report) -> Scan {
+        // Positive indices may point forward, so that only the end shows which exist.
+        for (kind, index, place) in self.forward {
+            let count = self.scan.counts[kind as usize];
+            if index >= count {
+                let message = corner::describe_missing(kind, i64::from(index) + 1, count);
+                report.error(SceneError::scene(place, message));
+            }
+        }
+        if !self.has_groups {
+            self.scan.faces.iter_mut().for_each(|face| face.group = 1);
+        }
+        if self.scan.faces.is_empty() && !report.has_errors() {
+            report.error(SceneError::scene(Place::file(file), "the file holds no faces"));
+        }
+        self.scan
+    }
+}
