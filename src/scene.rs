@@ -3,15 +3,22 @@
 //! Everything after loading can rely on it: positions are finite and in range, normals are unit,
 //! every index is valid, every light and material is evaluable. No visibility, no shading here.
 
+mod assemble;
 pub mod camera;
 pub mod error;
 pub mod file;
 pub(crate) mod lattice;
 pub mod light;
+mod load;
 pub mod material;
 pub mod obj;
 pub mod part;
+mod resolve;
 pub mod shapes;
+pub mod switches;
+mod transform;
+
+pub use load::{Overrides, SceneErrors};
 
 use crate::color::LinearRgb;
 use crate::mesh::{TriangleId, TriangleMesh};
@@ -20,6 +27,7 @@ use light::Light;
 use material::Material;
 use std::ops::Range;
 use std::path::PathBuf;
+use switches::Switches;
 
 /// Everything that a picture depends on.
 #[derive(Clone, Debug)]
@@ -38,6 +46,8 @@ pub struct Scene {
     pub triangle_materials: Vec<u32>,
     /// Lights, in file order.
     pub lights: Vec<Light>,
+    /// The switches of the shading equation.
+    pub switches: Switches,
     /// Things a user should know that are no errors.
     pub warnings: Vec<String>,
 }
@@ -121,6 +131,7 @@ impl Scene {
             materials: vec![Material::default_named("default")],
             triangle_materials: vec![0; triangles.len()],
             lights: Vec::new(),
+            switches: Switches::default(),
             warnings: Vec::new(),
         }
     }

@@ -303,7 +303,7 @@ fn length(a: [f64; 3]) -> f64 {
 
 /// The unit vector along `a`, divided by its largest component first so that no square leaves the
 /// range; `None` for the zero vector.
-fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
+pub(super) fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
     let largest = a.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
     if largest == 0.0 || !largest.is_finite() {
         return None;
