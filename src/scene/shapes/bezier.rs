@@ -45,11 +45,15 @@ pub(super) fn point(patch: &Patch, u: f64, v: f64) -> [f64; 3] {
 /// (u − 1) · ∂u∂v, to first order, so the limit of the direction is that of ∂u × ±∂u∂v.
 pub(super) fn normal(patch: &Patch, u: f64, v: f64) -> [f64; 3] {
     let along_u = blend(patch, slopes(u), weights(v));
-    let mut along_v = blend(patch, weights(u), slopes(v));
-    if along_v == [0.0; 3] {
-        let mixed = blend(patch, slopes(u), slopes(v));
-        along_v = if u == 0.0 { mixed } else { mixed.map(|c| -c) };
-    }
+    let is_point = |row: usize| patch[row].iter().all(|point| *point == patch[row][0]);
+    // The control points decide: a derivative that should vanish is off by a rounding at some v.
+    let along_v = if u == 0.0 && is_point(0) {
+        blend(patch, slopes(u), slopes(v))
+    } else if u == 1.0 && is_point(3) {
+        blend(patch, slopes(u), slopes(v)).map(|c| -c)
+    } else {
+        blend(patch, weights(u), slopes(v))
+    };
     let [a, b] = [along_u, along_v];
     let n = [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
     let length = (n[0] * n[0] + n[1] * n[1] + n[2] * n[2]).sqrt();

@@ -138,12 +138,12 @@ fn unit(v: [f64; 3]) -> [f64; 3] {
 /// Longitude and latitude of each point, and per triangle the points' coordinates, with further
 /// ones where a triangle crosses the seam or has a corner on the y axis, which has no longitude.
 fn spherical_uvs(points: &[[f64; 3]], corners: &[[u32; 3]]) -> (Vec<[f64; 2]>, Vec<[u32; 3]>) {
-    let mut uvs: Vec<[f64; 2]> = points.iter().map(|&p| longitude_latitude(p)).collect();
+    let plain: Vec<[f64; 2]> = points.iter().map(|&p| longitude_latitude(p)).collect();
+    let mut uvs = plain.clone();
     let mut append = |uv: [f64; 2]| {
         uvs.push(uv);
         uvs.len() as u32 - 1
     };
-    let plain: Vec<[f64; 2]> = points.iter().map(|&p| longitude_latitude(p)).collect();
     let is_pole = |index: u32| points[index as usize][0] == 0.0 && points[index as usize][2] == 0.0;
     let corner_uvs = corners.iter().map(|triangle| {
         let mut s = triangle.map(|index| plain[index as usize][0]);

@@ -21,7 +21,7 @@ pub(super) const NAME: &str = "teapot";
 #[derive(Clone, Debug, PartialEq)]
 pub struct Teapot {
     /// Cells along each edge of a patch, 2…790: 64 · segments² − 8 · segments triangles in all;
-    /// default 10.
+    /// default 10. Below 6, some normals at the spout's lip lie behind their coarse triangles.
     pub segments: u32,
     /// Whether the lid is there; default true.
     pub lid: bool,
@@ -38,7 +38,7 @@ impl Default for Teapot {
 /// A part of the teapot: bands of patches, each band closed around.
 pub(super) struct Surface {
     /// Patches, `[band from above][patch to the right]`; bands have the same number of patches.
-    bands: Vec<Vec<Patch>>,
+    pub(super) bands: Vec<Vec<Patch>>,
     top: Edge,
     bottom: Edge,
 }
