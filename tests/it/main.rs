@@ -4,3 +4,6 @@
 mod film;
 // Bad scene files: every error with its line and column.
 mod scene_errors;
+//! tests
+
+mod obj;
