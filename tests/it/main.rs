@@ -1,1 +1,3 @@
-//! tests
+//! Everything that needs the library as a whole, in one binary.
+
+mod lighting;
