@@ -182,13 +182,47 @@ fn numbers_at_the_ends_of_their_ranges_never_make_nan() {
 fn a_light_at_the_pole_of_its_attenuation_is_finite() {
     // a = b = 0: the equation has a pole at r = 0, and 1/r² leaves the range at 1e-160.
     for r in [1e-20, 1e-100, 1e-150, 1e-160, 1e-300, 5e-324] {
-        let mut scene = super::floor();
-        scene.lights = vec![super::point([0.0, 0.0, r], [0.0, 0.0, 1.0], super::white())];
+        let mut scene = super::stage::floor();
+        scene.lights =
+            vec![super::stage::point([0.0, 0.0, r], [0.0, 0.0, 1.0], super::stage::white())];
         scene.materials[0] = super::shiny([0.5, 0.0, 0.5], [0.0, 0.5, 0.5], 10.0);
         let buffer = look(&scene);
         let shaded = shade::shade(&scene, &buffer, Effects::of(&scene), &|| ());
         assert_eq!(shaded.notes.non_finite, 0, "{r:e}");
-        let under = shaded.radiance[buffer.window.index(super::pixel_at(0, 0))];
+        let under = shaded.radiance[buffer.window.index(super::stage::pixel_at(0, 0))];
         assert!(under.iter().all(|value| *value >= 1e39 && value.is_finite()), "{r:e}: {under:?}");
+    }
+}
+
+#[test]
+fn a_scene_scaled_by_a_power_of_two_keeps_every_bit() {
+    use truecast::scene::camera::PinholeCamera;
+    let mut original = busy_scene();
+    // Attenuation has a length of its own.
+    for light in &mut original.lights {
+        match light {
+            Light::Point(light) => light.attenuation = [1.0, 0.0, 0.0],
+            Light::Spot(light) => light.attenuation = [1.0, 0.0, 0.0],
+            Light::Ambient(_) | Light::Directional(_) => {}
+        }
+    }
+    let expected = shade::shade(&original, &look(&original), Effects::ALL, &|| ());
+    for exponent in [-90, -40, -1, 1, 40, 110] {
+        let s = 2.0_f64.powi(exponent);
+        let mut scene = original.clone();
+        scene.mesh.positions.iter_mut().for_each(|p| *p = p.map(|c| (f64::from(c) * s) as f32));
+        for light in &mut scene.lights {
+            match light {
+                Light::Point(light) => light.position = light.position.map(|c| c * s),
+                Light::Spot(light) => light.position = light.position.map(|c| c * s),
+                Light::Ambient(_) | Light::Directional(_) => {}
+            }
+        }
+        let camera = &original.camera;
+        let [eye, d0, dx, dy] =
+            [camera.eye(), camera.d0(), camera.dx(), camera.dy()].map(|v| v.map(|c| c * s));
+        scene.camera = PinholeCamera::exact(camera.resolution(), eye, d0, dx, dy).unwrap();
+        let shaded = shade::shade(&scene, &look(&scene), Effects::ALL, &|| ());
+        assert_eq!(bits(&shaded.radiance), bits(&expected.radiance), "2^{exponent}");
     }
 }
