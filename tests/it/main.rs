@@ -7,3 +7,6 @@ mod scene_errors;
 //! tests
 
 mod obj;
+//! Everything that needs the library as a whole, in one binary.
+
+mod lighting;
