@@ -1,5 +1,7 @@
 //! truecast answers which triangle is really visible at each pixel, and shades it.
 
+pub mod accel;
+pub mod cast;
 pub mod color;
 pub mod film;
 pub mod mesh;

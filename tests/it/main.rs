@@ -10,3 +10,4 @@ mod obj;
 //! Everything that needs the library as a whole, in one binary.
 
 mod lighting;
+mod cast;

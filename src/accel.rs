@@ -1,0 +1,98 @@
+//! The accelerator: a bounding volume hierarchy that loses no hit.
+//!
+//! obvhs finds the shape of the tree; boxes are the exact bounds of the triangles, and the walk is
+//! our own and conservative (`traverse`), because obvhs' loses hits: it clamps 1/d and does not pad
+//! rounding. What a triangle is tested for is the caster's business.
+
+mod bounds;
+mod entries;
+mod node;
+mod preset;
+mod topology;
+mod traverse;
+
+pub(crate) use entries::LeafTriangle;
+pub use preset::BuildPreset;
+pub(crate) use traverse::{Pending, Slabs};
+
+use crate::mesh::TriangleMesh;
+use node::{Child, Tree};
+
+/// Deepest tree that is kept as obvhs made it. Good trees over 10⁸ triangles stay below 64; a
+/// deeper one is a chain, and a balanced tree over the spatial order is better.
+const DEEPEST: usize = 96;
+
+/// A hierarchy over the triangles of one mesh.
+#[derive(Clone, Debug)]
+pub struct Accelerator {
+    tree: Tree,
+}
+
+impl Accelerator {
+    /// Builds the hierarchy. Triangles that no eye can see, points and segments along an axis, are
+    /// left out; bitwise equal ones are kept once, with their number.
+    pub fn build(mesh: &TriangleMesh, preset: BuildPreset) -> Self {
+        let entries = entries::collect(mesh);
+        let tree = match entries.items.len() {
+            0 => Tree::default(),
+            1 => node::lay_out_balanced(&entries),
+            _ => {
+                let boxes: Vec<_> = entries
+                    .items
+                    .iter()
+                    .map(|item| {
+                        entries.bounds[item.start as usize..item.end as usize]
+                            .iter()
+                            .fold(bounds::Bounds::EMPTY, |all, one| all.union(*one))
+                    })
+                    .collect();
+                let tree = node::lay_out(&entries, &topology::cluster(&boxes, preset));
+                if tree.depth > DEEPEST { node::lay_out_balanced(&entries) } else { tree }
+            }
+        };
+        Self { tree }
+    }
+
+    /// No hierarchy: one leaf with every triangle of the mesh, nothing left out or folded. The
+    /// reference that a hierarchy's answers are compared with.
+    pub fn linear(mesh: &TriangleMesh) -> Self {
+        let triangles = entries::unordered(mesh);
+        let root = Child { first: 0, count: triangles.len() as u32 };
+        Self {
+            tree: Tree {
+                root: (root.count > 0).then_some(root),
+                depth: usize::from(root.count > 0),
+                nodes: Vec::new(),
+                triangles,
+            },
+        }
+    }
+
+    /// Nodes on the longest path from the root, leaves included; 0 for an empty hierarchy.
+    pub fn depth(&self) -> usize {
+        self.tree.depth
+    }
+
+    /// Number of inner nodes.
+    pub fn node_count(&self) -> usize {
+        self.tree.nodes.len()
+    }
+
+    /// Memory of nodes and leaf triangles, in bytes.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.tree.nodes[..]) + size_of_val(&self.tree.triangles[..])
+    }
+
+    /// Visits every triangle that the ray meets within the reach that `visit` returns.
+    pub(crate) fn traverse(
+        &self,
+        slabs: &Slabs,
+        pending: &mut Pending,
+        visit: impl FnMut(&[LeafTriangle]) -> f64,
+    ) {
+        self.tree.traverse(slabs, pending, visit);
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,170 @@
+//! Covering triangles in depth order, and the numbers of the nearest.
+//!
+//! Depth is compared in three steps: intervals of t from the f64 filter, intervals that are a few
+//! ulps wide, and the exact sign of the depth polynomial F. All t here are those of the scaled ray.
+
+use super::coverage::Covering;
+use super::exact::{self, Vertices};
+use super::filter::{Bounded, U};
+use super::pair::{PairVector, triple_product};
+use super::ray::Ray;
+use crate::accel::LeafTriangle;
+use crate::mesh::{Barycentric, TriangleId};
+use crate::visibility::Level;
+
+/// A covering triangle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Candidate {
+    pub(super) triangle: LeafTriangle,
+    pub(super) covering: Covering,
+    /// Certain bounds of t, crude or narrow.
+    t: [f64; 2],
+    narrow: Option<Surface>,
+    /// Whether another covering triangle is known to have exactly the same t.
+    pub(super) shared: bool,
+}
+
+/// Where and how a ray meets its triangle; a function of the two and nothing else.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Surface {
+    /// Certain bounds of t.
+    pub(super) t: [f64; 2],
+    /// W_i/ΣW.
+    pub(super) barycentric: Barycentric,
+}
+
+/// Two triangles of one plane, lower id first: the last pair that exact arithmetic found.
+pub(super) type SamePlane = Option<[TriangleId; 2]>;
+
+impl Candidate {
+    pub(super) fn new(ray: &Ray, triangle: &LeafTriangle, covering: Covering) -> Self {
+        let t = crude_interval(covering);
+        let shared = triangle.copies > 1;
+        let mut candidate = Self { triangle: *triangle, covering, t, narrow: None, shared };
+        // An interval wider than 2^-20 is no use for culling the rest of the scene.
+        if candidate.t[1] > candidate.t[0] * (1.0 + 1.0 / f64::from(1 << 20)) {
+            candidate.narrow(ray);
+        }
+        candidate
+    }
+
+    /// Certain upper bound of t.
+    pub(super) fn reach(&self) -> f64 {
+        self.t[1]
+    }
+
+    /// The surface, computed once.
+    pub(super) fn narrow(&mut self, ray: &Ray) -> Surface {
+        *self.narrow.get_or_insert_with(|| {
+            let surface = surface(ray, &vertices(&self.triangle));
+            self.t = surface.t;
+            surface
+        })
+    }
+
+    /// Whether `self` is nearer than `other` at the sample, and the level that decided. A tie
+    /// marks both as shared. The relation is a strict order of the triangles that cover a sample,
+    /// so the nearest does not depend on the order of comparisons; and `shared` does not either,
+    /// because two triangles of equal t are compared with each other or with a third of that t:
+    /// traversal prunes only strictly beyond t.
+    pub(super) fn precedes(
+        &mut self,
+        other: &mut Self,
+        ray: &Ray,
+        same_plane: &mut SamePlane,
+    ) -> (bool, Level) {
+        if let Some(nearer) = separated(self.t, other.t) {
+            return (nearer, Level::Double);
+        }
+        let ids = [self.triangle.id, other.triangle.id];
+        let lower_id = ids[0] < ids[1];
+        let pair = [ids[0].min(ids[1]), ids[0].max(ids[1])];
+        if *same_plane == Some(pair) {
+            self.shared = true;
+            other.shared = true;
+            return (lower_id, Level::Exact);
+        }
+        self.narrow(ray);
+        other.narrow(ray);
+        if let Some(nearer) = separated(self.t, other.t) {
+            return (nearer, Level::Double);
+        }
+        let f = exact::depth_sign(
+            ray,
+            (&vertices(&self.triangle), self.covering.sign),
+            (&vertices(&other.triangle), other.covering.sign),
+        );
+        self.shared |= f.zero;
+        other.shared |= f.zero;
+        if f.sign == 0 {
+            *same_plane = Some(pair);
+        }
+        (if f.sign == 0 { lower_id } else { f.sign < 0 }, Level::Exact)
+    }
+}
+
+/// A triangle's vertices in f64.
+#[inline(always)]
+pub(super) fn vertices(triangle: &LeafTriangle) -> Vertices {
+    triangle.vertices.map(|vertex| vertex.map(f64::from))
+}
+
+/// Whether a lies wholly before b; `None` where they meet.
+fn separated(a: [f64; 2], b: [f64; 2]) -> Option<bool> {
+    if a[1] < b[0] {
+        Some(true)
+    } else if b[1] < a[0] {
+        Some(false)
+    } else {
+        None
+    }
+}
+
+/// Bounds of V/D from the filter's values. Numerator and denominator are rounded once each, the
+/// quotient once and the padding once: 4u on each side covers them.
+fn crude_interval(covering: Covering) -> [f64; 2] {
+    let sign = f64::from(covering.sign);
+    let [v, d] = covering.plane_and_speed.map(|b| Bounded { value: b.value * sign, ..b });
+    let lo = if v.value > v.error {
+        (v.value - v.error) / (d.value.abs() + d.error) * (1.0 - 4.0 * U)
+    } else {
+        0.0
+    };
+    let hi = if d.value > d.error {
+        (v.value + v.error) / (d.value - d.error) * (1.0 + 4.0 * U)
+    } else {
+        f64::INFINITY
+    };
+    [lo, hi]
+}
+
+/// The surface of a covering triangle.
+///
+/// |W_i| and |V| have relative errors of at most 3u, by pairs or expansions. All W_i have the sign
+/// of V, so D = ΣW loses nothing: 5u. Hence weights W_i/D are good to 9u, a little over 2^-50, and
+/// t = V/D to 3u + 5u + u, u more for multiplying by the padding: 12u on each side with room for
+/// terms in u², a relative width of 24u < 2^-48.
+fn surface(ray: &Ray, v: &Vertices) -> Surface {
+    let a = v.map(|vertex| PairVector::difference(vertex, ray.eye));
+    let edges = [
+        PairVector::difference(v[2], v[1]),
+        PairVector::difference(v[0], v[2]),
+        PairVector::difference(v[1], v[0]),
+    ];
+    let d = PairVector::exact(ray.direction());
+    let w: [f64; 3] =
+        std::array::from_fn(|i| match triple_product(&d, &a[(i + 1) % 3], &edges[i]) {
+            Some(value) => value.abs(),
+            None => exact::edge_magnitude(ray, v, i),
+        });
+    let plane = match triple_product(&edges[1], &edges[2], &a[0]) {
+        Some(value) => value.abs(),
+        None => exact::plane_magnitude(ray, v),
+    };
+    let speed = (w[0] + w[1]) + w[2];
+    let t = plane / speed;
+    Surface {
+        t: [t * (1.0 - 12.0 * U), t * (1.0 + 12.0 * U)],
+        barycentric: Barycentric(w.map(|w| w / speed)),
+    }
+}

@@ -1,0 +1,92 @@
+//! Whether a triangle covers a sample: V ≠ 0 and sgn*(W_i) = sgn V for i = 0, 1, 2.
+//!
+//! The f64 filter decides almost always; what it leaves open goes to expansions. The answer, its
+//! level and the edge flag depend on the triangle and the sample only.
+
+use super::exact::{self, Vertices};
+use super::filter::{Bounded, Relative};
+use super::ray::Ray;
+use crate::visibility::Level;
+
+/// A triangle that covers the sample.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Covering {
+    /// sgn V.
+    pub(super) sign: i8,
+    /// Highest level that a sign of W_i needed.
+    pub(super) level: Level,
+    /// Some W_i is exactly 0.
+    pub(super) on_edge: bool,
+    /// V and D with bounds, in f64.
+    pub(super) plane_and_speed: [Bounded; 2],
+}
+
+/// The decision, and the level of arithmetic that it took.
+pub(super) type Decision = (Option<Covering>, Level);
+
+/// Whether the triangle covers the ray's sample.
+#[inline(always)]
+pub(super) fn decide(ray: &Ray, vertices: &Vertices) -> Decision {
+    let relative = Relative::new(ray, vertices);
+    let (w, bound) = relative.edge_functions(ray);
+    let positive = w.map(|w| w > bound);
+    let negative = w.map(|w| w < -bound);
+    // Two certain opposite signs: outside, whatever V is.
+    if (positive[0] | positive[1] | positive[2]) && (negative[0] | negative[1] | negative[2]) {
+        return (None, Level::Double);
+    }
+    if positive == [true; 3] || negative == [true; 3] {
+        let sign = if positive[0] { 1 } else { -1 };
+        let edges = Edges { sign, level: Level::Double, on_edge: false };
+        return with_plane(ray, vertices, &relative, edges);
+    }
+    decide_near_edges(ray, vertices, &relative, w)
+}
+
+/// The common sign of the three edge functions.
+struct Edges {
+    sign: i8,
+    level: Level,
+    on_edge: bool,
+}
+
+/// Some edge function is within its crude bound of 0: tight bound, then exact sign, edge by edge.
+#[cold]
+fn decide_near_edges(ray: &Ray, vertices: &Vertices, relative: &Relative, w: [f64; 3]) -> Decision {
+    let signs: [Option<i8>; 3] = std::array::from_fn(|i| {
+        Bounded { value: w[i], error: relative.tight_edge_bound(ray, i) }.sign()
+    });
+    if signs.contains(&Some(1)) && signs.contains(&Some(-1)) {
+        return (None, Level::Double);
+    }
+    let mut edges = Edges { sign: 0, level: Level::Double, on_edge: false };
+    for (i, certain) in signs.into_iter().enumerate() {
+        let sign = certain.unwrap_or_else(|| {
+            let signed = exact::edge_sign(ray, vertices, i);
+            edges.level = Level::Exact;
+            edges.on_edge |= signed.zero;
+            signed.sign
+        });
+        // c_i = 0 implies V = 0; opposite signs are outside.
+        if sign == 0 || sign == -edges.sign {
+            return (None, edges.level);
+        }
+        edges.sign = sign;
+    }
+    with_plane(ray, vertices, relative, edges)
+}
+
+/// The three signs agree; the sign of V must too. It is opposite for a triangle behind the eye and
+/// 0 for one that the eye lies on.
+fn with_plane(ray: &Ray, vertices: &Vertices, relative: &Relative, edges: Edges) -> Decision {
+    let plane_and_speed = relative.plane_and_speed(ray);
+    let (sign, level) = match plane_and_speed[0].sign() {
+        Some(sign) => (sign, edges.level),
+        None => (exact::plane_sign(ray, vertices), Level::Exact),
+    };
+    if sign != edges.sign {
+        return (None, level);
+    }
+    let Edges { level: edge_level, on_edge, .. } = edges;
+    (Some(Covering { sign, level: edge_level, on_edge, plane_and_speed }), level)
+}
