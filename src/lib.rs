@@ -4,5 +4,6 @@ pub mod color;
 pub mod film;
 pub mod mesh;
 pub mod pixel;
+pub mod raster;
 pub mod scene;
 pub mod visibility;
