@@ -6,6 +6,7 @@ pub mod color;
 pub mod film;
 pub mod mesh;
 pub mod pixel;
+pub mod raster;
 pub mod scene;
 pub mod shade;
 pub mod visibility;

@@ -1,0 +1,269 @@
+//! One tile: its triangles in the order of ids, over its pixels, into a z-buffer of intervals.
+//!
+//! A filter that cannot certify a sign hands the one decision it has to the exact stage; nothing is
+//! decided by a tolerance. What was found is turned into the answer's shape by `resolve`.
+
+use super::bins::{Bins, Candidate, set_up};
+use super::bounds::Rectangle;
+use super::exact::ExactStage;
+use super::image_plane::ImagePlane;
+use super::resolve::resolve;
+use super::rows::{Row, TriangleRows};
+use crate::mesh::{TriangleId, TriangleMesh};
+use crate::pixel::{Pixel, Window};
+use crate::visibility::{Counting, Cover, LevelCounts, VisibilityTile};
+use std::borrow::Cow;
+use std::cmp::Ordering;
+
+/// What the z-buffer holds of the nearest triangle so far.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Fragment {
+    pub(super) triangle: TriangleId,
+    /// Its coverage of the sample was decided exactly.
+    pub(super) exact: bool,
+    /// The sample lies exactly on one of its edges.
+    pub(super) on_edge: bool,
+    /// Another covering triangle has exactly the same depth at the sample.
+    ///
+    /// Independent of the order of work: the first triangle of the least t replaces what was there
+    /// as strictly nearer, without a mark. Every later one of that t meets a triangle of that t, and
+    /// whichever survives is marked; nothing strictly nearer comes to clear it. So at the end it is
+    /// set if and only if two triangles share the least t.
+    pub(super) same_depth: bool,
+    /// Certain bounds of 1/t, up to the frame's common factor.
+    inverse_depth: [f64; 2],
+}
+
+/// How a triangle covers a sample.
+#[derive(Clone, Copy)]
+struct Coverage {
+    exact: bool,
+    on_edge: bool,
+}
+
+/// A tile at work.
+struct Tile<'a> {
+    window: Window,
+    exact: ExactStage<'a>,
+    fragments: Vec<Option<Fragment>>,
+    cover: Vec<Cover>,
+    levels: LevelCounts,
+}
+
+/// Everything visible in one tile.
+pub(super) fn rasterize_tile(
+    plane: &ImagePlane,
+    mesh: &TriangleMesh,
+    window: Window,
+    bins: &Bins,
+    counting: Counting,
+    tile_window: Window,
+) -> VisibilityTile {
+    let VisibilityTile { window: tile_window, cover, levels, .. } =
+        VisibilityTile::empty(tile_window, counting);
+    let mut tile = Tile {
+        window: tile_window,
+        exact: ExactStage::new(plane, mesh),
+        fragments: vec![None; tile_window.len()],
+        cover,
+        levels,
+    };
+    let (ids, large) = bins.of(tile_window);
+    for candidate in in_order(ids, large, |id| set_up(plane, mesh, window, id)) {
+        tile.scan(&candidate);
+    }
+    VisibilityTile {
+        window: tile_window,
+        visible: resolve(tile_window, &tile.fragments, &mut tile.exact),
+        cover: tile.cover,
+        levels: tile.levels,
+    }
+}
+
+/// Small and large triangles merged by id; the small ones are set up on the way.
+fn in_order<'a>(
+    ids: &'a [TriangleId],
+    large: &'a [Candidate],
+    set_up: impl Fn(TriangleId) -> Option<Candidate> + 'a,
+) -> impl Iterator<Item = Cow<'a, Candidate>> {
+    let (mut small, mut large) = (ids.iter().copied().peekable(), large.iter().peekable());
+    std::iter::from_fn(move || {
+        loop {
+            let small_first = match (small.peek(), large.peek()) {
+                (Some(id), Some(other)) => *id < other.rows.id,
+                (small, _) => small.is_some(),
+            };
+            if !small_first {
+                return large.next().map(Cow::Borrowed);
+            }
+            if let Some(candidate) = small.next().and_then(&set_up) {
+                return Some(Cow::Owned(candidate));
+            }
+        }
+    })
+}
+
+impl Tile<'_> {
+    /// Tests every pixel that the triangle can cover.
+    fn scan(&mut self, candidate: &Candidate) {
+        let rows = &candidate.rows;
+        let Some(pixels) = candidate.pixels.intersection(Rectangle::of(self.window)) else {
+            return;
+        };
+        // Drop the triangle where one edge excludes the whole rectangle; note the edges that leave
+        // no doubt in it.
+        let mut open = [true; 3];
+        for (edge, open) in rows.edges.iter().zip(&mut open) {
+            let [least, greatest] = range_over(edge, pixels);
+            if greatest < -edge.bound {
+                return;
+            }
+            // True values are then at least 3·bound, so each pixel's own test would certify it too:
+            // a level does not depend on the tile.
+            *open = least.is_nan() || least <= 4.0 * edge.bound;
+        }
+        for y in pixels.y0..pixels.y1 {
+            let y_sample = f64::from(y) + 0.5;
+            let (x0, x1) = span(rows, open, pixels, y_sample);
+            for x in x0..x1 {
+                let pixel = Pixel { x, y };
+                if let Some(coverage) = self.coverage(rows, open, pixel) {
+                    self.keep(rows, pixel, coverage);
+                }
+            }
+        }
+    }
+
+    /// Whether, and how, the triangle covers the sample.
+    #[inline]
+    fn coverage(&mut self, rows: &TriangleRows, open: [bool; 3], pixel: Pixel) -> Option<Coverage> {
+        let [x, y] = pixel.sample();
+        let (mut certain, mut outside) = (true, false);
+        for (edge, open) in rows.edges.iter().zip(open) {
+            if open {
+                let value = edge.at(x, y);
+                certain &= value > edge.bound;
+                outside |= value < -edge.bound;
+            }
+        }
+        if certain || outside {
+            self.levels.double += 1;
+            return certain.then_some(Coverage { exact: false, on_edge: false });
+        }
+        self.levels.exact += 1;
+        self.exact_coverage(rows, pixel)
+    }
+
+    /// Coverage by the tie rule, for the edges that f64 leaves open.
+    #[cold]
+    fn exact_coverage(&mut self, rows: &TriangleRows, pixel: Pixel) -> Option<Coverage> {
+        let [x, y] = pixel.sample();
+        let triangle = self.exact.triangle(rows.id)?;
+        let mut on_edge = false;
+        for (edge, exact) in rows.edges.iter().zip(&triangle.edges) {
+            if edge.at(x, y) > edge.bound {
+                continue;
+            }
+            let sign = exact.sign_at(pixel);
+            if exact.moved_sign(sign) <= 0 {
+                return None;
+            }
+            on_edge |= sign == 0;
+        }
+        Some(Coverage { exact: true, on_edge })
+    }
+
+    /// Counts a covering triangle and keeps it if it is the nearest.
+    #[inline]
+    fn keep(&mut self, rows: &TriangleRows, pixel: Pixel, coverage: Coverage) {
+        let index = self.window.index(pixel);
+        if let Some(cover) = self.cover.get_mut(index) {
+            cover.crossed += 1;
+            cover.signed += rows.volume_sign;
+        }
+        let [x, y] = pixel.sample();
+        let mut fragment = Fragment {
+            triangle: rows.id,
+            exact: coverage.exact,
+            on_edge: coverage.on_edge,
+            same_depth: false,
+            inverse_depth: rows.inverse_depth(x, y),
+        };
+        if let Some(nearest) = self.fragments[index] {
+            // Compare 1/t: disjoint intervals decide, and are never equal.
+            let [low, high] = fragment.inverse_depth;
+            let [nearest_low, nearest_high] = nearest.inverse_depth;
+            if high < nearest_low {
+                self.levels.double += 1;
+                return;
+            }
+            if low > nearest_high {
+                self.levels.double += 1;
+            } else {
+                self.levels.exact += 1;
+                if !self.settle(&mut fragment, nearest, pixel) {
+                    return;
+                }
+            }
+        }
+        self.fragments[index] = Some(fragment);
+    }
+
+    /// Orders two triangles whose depth intervals overlap. True where the candidate survives; marks
+    /// the survivor where both have the same depth.
+    #[cold]
+    fn settle(&mut self, candidate: &mut Fragment, nearest: Fragment, pixel: Pixel) -> bool {
+        let order = self.exact.depth_order(candidate.triangle, nearest.triangle, pixel);
+        // Only triangles with V ≠ 0 cover, so that there always is an order.
+        let Some(order) = order else { return false };
+        let wins = match order.moved {
+            Ordering::Less => true,
+            Ordering::Greater => false,
+            // The same plane: the lowest id.
+            Ordering::Equal => candidate.triangle < nearest.triangle,
+        };
+        if order.at_sample == Ordering::Equal {
+            candidate.same_depth = true;
+            let index = self.window.index(pixel);
+            if let Some(nearest) = &mut self.fragments[index] {
+                nearest.same_depth = true;
+            }
+        }
+        wins
+    }
+}
+
+/// Least and greatest computed value of an edge over the samples of a rectangle: a linear function
+/// takes them at corners.
+fn range_over(edge: &Row, pixels: Rectangle) -> [f64; 2] {
+    let [[x0, y0], [x1, y1]] = pixels.samples();
+    let (x_low, x_high) = if edge.a >= 0.0 { (x0, x1) } else { (x1, x0) };
+    let (y_low, y_high) = if edge.b >= 0.0 { (y0, y1) } else { (y1, y0) };
+    [edge.at(x_low, y_low), edge.at(x_high, y_high)]
+}
+
+/// Rows narrower than this, in pixels, are tested pixel by pixel: two divisions cost as much.
+const SHORT_ROW: u32 = 8;
+
+/// The columns of one row of pixels outside which an open edge certainly excludes the triangle.
+///
+/// Where a·x + r < 0, r = b·y + c, the edge excludes x. The boundary −r/a is computed with a few
+/// roundings; with the row's bound added to r and a whole pixel of room on both sides the rest of
+/// the error cannot matter: it is relative, 4u of a coordinate below 2^17 (2^-34 of a pixel).
+fn span(rows: &TriangleRows, open: [bool; 3], pixels: Rectangle, y: f64) -> (u32, u32) {
+    if pixels.x1 - pixels.x0 < SHORT_ROW {
+        return (pixels.x0, pixels.x1);
+    }
+    let (mut low, mut high) = (f64::from(pixels.x0), f64::from(pixels.x1));
+    for (edge, open) in rows.edges.iter().zip(open) {
+        if open && edge.a != 0.0 {
+            let boundary = -((edge.b * y + edge.c) + 2.0 * edge.bound) / edge.a;
+            if edge.a > 0.0 {
+                low = low.max(boundary.floor() - 1.0);
+            } else {
+                high = high.min(boundary.ceil() + 1.0);
+            }
+        }
+    }
+    if low < high { (low as u32, high as u32) } else { (pixels.x0, pixels.x0) }
+}
