@@ -25,7 +25,7 @@ use candidate::{Candidate, SamePlane};
 use ray::View;
 
 /// Side of a tile, in pixels: neighbouring rays walk through the same nodes.
-const TILE: u32 = 32;
+pub const TILE_SIDE: u32 = 32;
 
 /// What is visible at every pixel of `window`, with `accelerator` built over the scene's mesh.
 /// `done` is called once per finished tile of 32 × 32 pixels, from any thread.
@@ -36,7 +36,7 @@ pub fn cast(
     counting: Counting,
     done: &(dyn Fn() + Sync),
 ) -> VisibilityBuffer {
-    cast_with_tiles(scene, accelerator, window, counting, done, TILE)
+    cast_with_tiles(scene, accelerator, window, counting, done, TILE_SIDE)
 }
 
 /// As [`cast`], in tiles of `side` × `side` pixels (at least 1). The answer is the same.

@@ -1,3 +1,9 @@
-//! The command-line program.
+//! The command-line program: parse, run, turn the outcome into an exit status.
 
-fn main() {}
+mod cli;
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    cli::run()
+}

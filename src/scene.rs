@@ -7,6 +7,7 @@ mod assemble;
 pub mod camera;
 pub mod error;
 pub mod file;
+pub mod hash;
 pub(crate) mod lattice;
 pub mod light;
 mod load;

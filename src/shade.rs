@@ -108,6 +108,11 @@ pub fn shade_point(scene: &Scene, point: &SurfacePoint, material: &Material) -> 
     )
 }
 
+/// The radiance of one visible pixel, as [`shade`] computes it.
+pub fn shade_visible(scene: &Scene, pixel: Pixel, visible: &Visible) -> LinearRgb {
+    terms(scene, pixel, visible).sum()
+}
+
 /// Every light's term at a visible pixel; their sum is the shaded pixel bit for bit.
 pub fn terms(scene: &Scene, pixel: Pixel, visible: &Visible) -> Terms {
     let (surface, _) = surface_point(scene, pixel, visible);

@@ -90,9 +90,19 @@ pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), FilmError> {
 /// As [`format_of`] and [`write_atomic`].
 pub fn check_target(path: &Path) -> Result<Format, FilmError> {
     let format = format_of(path)?;
+    check_writable(path)?;
+    Ok(format)
+}
+
+/// Checks that [`write_atomic`] could write a file of this name now.
+///
+/// # Errors
+///
+/// As [`write_atomic`].
+pub fn check_writable(path: &Path) -> Result<(), FilmError> {
     let target = resolve_target(path)?;
     create_beside(path, &target)?;
-    Ok(format)
+    Ok(())
 }
 
 /// The file to replace: `path`, or what it links to. Folders and devices are refused: a rename

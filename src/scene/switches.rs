@@ -102,6 +102,15 @@ impl Switches {
     pub fn get(&self, name: &str) -> Option<SwitchValue> {
         self.values.iter().find(|(known, _)| *known == name).map(|&(_, value)| value)
     }
+
+    /// Name and value of every switch as one JSON object.
+    pub fn table(&self) -> serde_json::Value {
+        let value = |value: SwitchValue| match value {
+            SwitchValue::Is(is) => serde_json::Value::Bool(is),
+            SwitchValue::Word(word) => serde_json::Value::String(word.to_owned()),
+        };
+        self.values.iter().map(|&(name, v)| (name.to_owned(), value(v))).collect()
+    }
 }
 
 #[cfg(test)]

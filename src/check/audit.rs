@@ -1,0 +1,94 @@
+//! The audit: the arbiter looks at a sample of the pixels on which both paths agree.
+//!
+//! Half of the sample lies next to a boundary between two ids, where errors live; the other half
+//! anywhere. The seed is fixed, so a check is repeatable.
+
+use super::blame::{Blame, Judged, visibility_error};
+use super::compare::{Answered, Difference};
+use crate::exact::Arbiter;
+use crate::pixel::Pixel;
+use crate::render::Progress;
+use crate::visibility::VisibilityBuffer;
+use rayon::prelude::*;
+use std::collections::HashSet;
+
+/// Seed of the sample; any number does.
+const SEED: u64 = 0x7275_6563_6173_7431;
+
+/// Chooses up to `count` pixels that are not disputed, half of them beside an id boundary.
+pub(super) fn sample(buffer: &VisibilityBuffer, disputed: &[Pixel], count: usize) -> Vec<Pixel> {
+    let window = buffer.window;
+    let mut taken: HashSet<Pixel> = disputed.iter().copied().collect();
+    let boundary: Vec<Pixel> =
+        window.pixels().filter(|&pixel| is_beside_boundary(buffer, pixel)).collect();
+    let mut random = SplitMix64(SEED);
+    let mut chosen = Vec::new();
+    // Drawing may repeat a pixel; four draws per wanted pixel are enough wherever there are
+    // plenty, and a small frame simply gives fewer.
+    for draw in 0..4 * count {
+        if chosen.len() >= count {
+            break;
+        }
+        let pixel = if draw % 2 == 0 && !boundary.is_empty() {
+            boundary[random.below(boundary.len())]
+        } else {
+            window.pixel(random.below(window.len()))
+        };
+        if taken.insert(pixel) {
+            chosen.push(pixel);
+        }
+    }
+    chosen.sort_unstable_by_key(|pixel| (pixel.y, pixel.x));
+    chosen
+}
+
+/// Asks the arbiter about every pixel of the sample; both paths agree there, so an error is both's.
+pub(super) fn audit(
+    arbiter: &Arbiter<'_>,
+    answers: &[Answered; 2],
+    sample: &[Pixel],
+    progress: &dyn Progress,
+) -> Vec<Judged> {
+    progress.begin("audit", sample.len());
+    sample
+        .par_iter()
+        .filter_map(|&pixel| {
+            let exact = arbiter.answer(pixel);
+            progress.step();
+            let errors = [0, 1].map(|i| visibility_error(&answers[i], pixel, &exact));
+            let kind = errors[0].or(errors[1])?;
+            Some(Judged {
+                difference: Difference { pixel, kind },
+                blame: Blame::of(errors[0].is_some(), errors[1].is_some()),
+                exact,
+                found_by_audit: true,
+            })
+        })
+        .collect()
+}
+
+/// Whether the pixel to the right or below shows another triangle.
+fn is_beside_boundary(buffer: &VisibilityBuffer, pixel: Pixel) -> bool {
+    let id = |pixel: Pixel| buffer.at(pixel).map(|visible| visible.triangle);
+    let right = Pixel { x: pixel.x + 1, y: pixel.y };
+    let below = Pixel { x: pixel.x, y: pixel.y + 1 };
+    [right, below].into_iter().any(|other| buffer.window.contains(other) && id(other) != id(pixel))
+}
+
+/// Steele, Lea and Flood, "Fast splittable pseudorandom number generators" (2014).
+struct SplitMix64(u64);
+
+impl SplitMix64 {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// A number below `bound` (> 0); the bias of the multiplication is below 2^-32 here.
+    fn below(&mut self, bound: usize) -> usize {
+        ((u128::from(self.next()) * bound as u128) >> 64) as usize
+    }
+}

@@ -1,0 +1,89 @@
+//! `truecast explain`: what a scene is made of and which effects it calls for, and by whom.
+
+use super::arguments::ExplainArguments;
+use super::failure::Failure;
+use super::{OK, output};
+use serde_json::json;
+use truecast::render::describe;
+use truecast::scene::{Overrides, Scene};
+use truecast::shade;
+
+pub(super) fn run(arguments: &ExplainArguments) -> Result<u8, Failure> {
+    let scene = Scene::load(&arguments.scene, &Overrides::default())?;
+    output::print_warnings(&scene.warnings);
+    if arguments.json {
+        output::print_json(&document(arguments, &scene));
+    } else {
+        output::print(&text(arguments, &scene));
+    }
+    Ok(OK)
+}
+
+fn text(arguments: &ExplainArguments, scene: &Scene) -> String {
+    let camera = &scene.camera;
+    let frame = camera.resolution();
+    let mut text = format!("{}\n\n", arguments.scene.display());
+    text += &format!(
+        "image      {}x{} pixels; the sample of pixel (i, j) is (i + 0.5, j + 0.5), y downwards\n",
+        frame.width(),
+        frame.height()
+    );
+    text += &format!(
+        "camera     eye {:?}\n           d(x, y) = D0 + x DX + y DY\n           D0 {:?}\n           \
+         DX {:?}\n           DY {:?}\n           lattice 2^{}; moved the image by {:.1e} pixels\n",
+        camera.eye(),
+        camera.d0(),
+        camera.dx(),
+        camera.dy(),
+        camera.exponent(),
+        camera.deviation_pixels()
+    );
+    text += &format!(
+        "meshes     {}, {} triangles\nmaterials  {}\nlights     {}\n",
+        scene.objects.len(),
+        scene.mesh.len(),
+        scene.materials.len(),
+        scene.lights.len()
+    );
+    text += "\neffect            on   called for by\n";
+    for call in shade::explain(scene) {
+        let by = match call.called_by.as_slice() {
+            [] => "-".to_owned(),
+            [first, second, third, rest @ ..] if !rest.is_empty() => {
+                format!("{first}, {second}, {third} and {} more", rest.len())
+            }
+            callers => callers.join(", "),
+        };
+        text += &format!("{:<17} {:<4} {by}\n", call.effect, if call.on { "yes" } else { "no" });
+    }
+    text += &format!("\ndialect    {}\n", scene.switches.dialect);
+    if let Some(table) = scene.switches.table().as_object() {
+        for (name, value) in table {
+            let value = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
+            text += &format!("  {name:<20} {value}\n");
+        }
+    }
+    text
+}
+
+fn document(arguments: &ExplainArguments, scene: &Scene) -> serde_json::Value {
+    let effects: Vec<_> = shade::explain(scene)
+        .into_iter()
+        .map(|call| json!({ "effect": call.effect, "on": call.on, "called_by": call.called_by }))
+        .collect();
+    json!({
+        "schema": "truecast/explain/1",
+        "scene": arguments.scene.display().to_string(),
+        "picture": describe(scene),
+        "lattice_exponent": scene.camera.exponent(),
+        "deviation_pixels": scene.camera.deviation_pixels(),
+        "triangles": scene.mesh.len(),
+        "meshes": scene.objects.iter().map(|object| json!({
+            "name": object.name,
+            "first_triangle": object.triangles.start,
+            "triangles": object.triangles.len(),
+        })).collect::<Vec<_>>(),
+        "effects": effects,
+        "warnings": scene.warnings,
+    })
+}

@@ -1,0 +1,37 @@
+//! What a picture was made of, as one canonical JSON document: the film's description.
+//!
+//! Only what decides the picture's bits: scene digest, camera lattice, switches, accuracy and
+//! effects. Not the path, threads or times, which change no bit. Keys are sorted.
+
+use crate::scene::Scene;
+use crate::scene::hash::content_hash;
+use crate::shade;
+use serde_json::{Value, json};
+
+/// Schema of the document.
+const SCHEMA: &str = "truecast/picture/1";
+
+/// Describes how a picture of this scene is made.
+pub fn describe(scene: &Scene) -> Value {
+    let camera = &scene.camera;
+    let effects: Vec<_> =
+        shade::explain(scene).into_iter().filter(|call| call.on).map(|call| call.effect).collect();
+    json!({
+        "schema": SCHEMA,
+        "scene_sha256": content_hash(scene),
+        "accuracy": "exact",
+        "camera": {
+            "eye": camera.eye(),
+            "d0": camera.d0(),
+            "dx": camera.dx(),
+            "dy": camera.dy(),
+            "width": camera.resolution().width(),
+            "height": camera.resolution().height(),
+            "axis": camera.axis(),
+            "z_per_t": camera.z_per_t(),
+        },
+        "dialect": scene.switches.dialect,
+        "switches": scene.switches.table(),
+        "effects": effects,
+    })
+}

@@ -1,0 +1,124 @@
+//! Lays visibility and radiance out as the named planes of a film.
+//!
+//! Where nothing is visible, ids are 0xFFFF_FFFF, colour is the background and every other plane
+//! is 0 (no surface lies at depth 0). Values are rounded to f32 once, here.
+
+use super::{PlaneGroup, PlaneGroups, describe};
+use crate::color::LinearRgb;
+use crate::film::{Film, Plane, Samples};
+use crate::pixel::for_each_row;
+use crate::scene::Scene;
+use crate::shade::surface_point;
+use crate::visibility::{VisibilityBuffer, Visible};
+
+/// "Nothing is visible" in id planes.
+const NOTHING: u32 = u32::MAX;
+
+/// Fills the planes that are asked for. `radiance` has one value per pixel of the buffer.
+/// Texture coordinates are left out of a scene that has none, unless only they are asked for.
+pub fn develop(
+    scene: &Scene,
+    buffer: &VisibilityBuffer,
+    radiance: &[LinearRgb],
+    groups: &PlaneGroups,
+) -> Film {
+    let mut planes = Vec::new();
+    for group in groups.iter() {
+        let is_absent = group == PlaneGroup::TextureCoordinates
+            && scene.mesh.uvs.is_empty()
+            && groups.iter().count() > 1;
+        if !is_absent {
+            let samples = fill(scene, buffer, radiance, group);
+            for (name, samples) in group.planes().iter().zip(samples) {
+                planes.push(Plane { name: (*name).to_owned(), samples });
+            }
+        }
+    }
+    Film {
+        resolution: scene.camera.resolution(),
+        window: buffer.window,
+        planes,
+        description: describe(scene).to_string(),
+    }
+}
+
+/// The planes of one group, in the order of [`PlaneGroup::planes`].
+fn fill(
+    scene: &Scene,
+    buffer: &VisibilityBuffer,
+    radiance: &[LinearRgb],
+    group: PlaneGroup,
+) -> Vec<Samples> {
+    let surface = |index: usize, visible: &Visible| {
+        surface_point(scene, buffer.window.pixel(index), visible).0
+    };
+    match group {
+        PlaneGroup::Color => {
+            let channel =
+                |k: usize| Samples::Float(radiance.iter().map(|rgb| rgb[k] as f32).collect());
+            let alpha = floats(buffer, |_, _| [1.0]);
+            [channel(0), channel(1), channel(2)].into_iter().chain(alpha).collect()
+        }
+        PlaneGroup::Depth => floats(buffer, |_, visible| [visible.t() * scene.camera.z_per_t()]),
+        PlaneGroup::RayParameter => floats(buffer, |_, visible| [visible.t()]),
+        PlaneGroup::Position => floats(buffer, |i, visible| surface(i, visible).position),
+        PlaneGroup::FaceNormal => floats(buffer, |i, visible| surface(i, visible).face_normal),
+        PlaneGroup::ShadingNormal => {
+            floats(buffer, |i, visible| surface(i, visible).shading_normal)
+        }
+        PlaneGroup::TextureCoordinates => {
+            floats(buffer, |i, visible| surface(i, visible).uv.unwrap_or([0.0; 2]))
+        }
+        PlaneGroup::Barycentric => {
+            floats(buffer, |_, visible| [visible.barycentric.0[1], visible.barycentric.0[2]])
+        }
+        PlaneGroup::Identity => uints(buffer, NOTHING, |visible| {
+            let id = visible.triangle;
+            [id.get(), scene.object_of(id).0 as u32, scene.material_of(id).0 as u32]
+        }),
+        PlaneGroup::Facing => floats(buffer, |_, visible| [f64::from(visible.facing.sign())]),
+        PlaneGroup::Cover => {
+            let crossed = buffer.cover.iter().flatten().map(|cover| cover.crossed);
+            vec![Samples::Uint(crossed.collect())]
+        }
+        PlaneGroup::Verdict => {
+            uints(buffer, 0, |visible| [visible.level as u32, u32::from(visible.tie)])
+        }
+    }
+}
+
+/// `N` float planes; 0 where nothing is visible.
+fn floats<const N: usize>(
+    buffer: &VisibilityBuffer,
+    value: impl Fn(usize, &Visible) -> [f64; N] + Sync,
+) -> Vec<Samples> {
+    let width = buffer.window.width() as usize;
+    let mut pixels = vec![[0.0_f32; N]; buffer.window.len()];
+    for_each_row(&mut pixels, width, &|| (), |row, pixels| {
+        for (column, pixel) in pixels.iter_mut().enumerate() {
+            let index = row * width + column;
+            if let Some(visible) = &buffer.visible[index] {
+                *pixel = value(index, visible).map(|v| v as f32);
+            }
+        }
+    });
+    (0..N).map(|k| Samples::Float(pixels.iter().map(|pixel| pixel[k]).collect())).collect()
+}
+
+/// `N` integer planes; `nothing` where nothing is visible.
+fn uints<const N: usize>(
+    buffer: &VisibilityBuffer,
+    nothing: u32,
+    value: impl Fn(&Visible) -> [u32; N] + Sync,
+) -> Vec<Samples> {
+    let width = buffer.window.width() as usize;
+    let mut pixels = vec![[nothing; N]; buffer.window.len()];
+    for_each_row(&mut pixels, width, &|| (), |row, pixels| {
+        for (column, pixel) in pixels.iter_mut().enumerate() {
+            if let Some(visible) = &buffer.visible[row * width + column] {
+                *pixel = value(visible);
+            }
+        }
+    });
+    (0..N).map(|k| Samples::Uint(pixels.iter().map(|pixel| pixel[k]).collect())).collect()
+}
