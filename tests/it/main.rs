@@ -1,1 +1,5 @@
 //! tests
+
+mod arbiter;
+mod layers;
+mod support;
