@@ -6,7 +6,8 @@
 //! shortcut, an interval test that discards triangles which certainly do not touch the sample
 //! (`discard`), is there for real meshes to finish; [`Arbiter::answer_among`] goes without it.
 //!
-//! Costs about 10 µs per triangle that the interval test keeps; callers spread pixels over threads.
+//! Measured on one core of 2026: 1.3 ms per pixel of a mesh of 57 600 triangles, nearly all of it the
+//! interval test. Callers spread pixels over threads.
 
 mod contact;
 mod discard;

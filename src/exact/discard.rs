@@ -66,3 +66,34 @@ fn exact_volume_sign(corners: [[f64; 3]; 3], eye: [f64; 3]) -> i8 {
     let a = corners.map(|v| rational::subtract(&exact_vector(v), &eye));
     rational::sign(&rational::dot(&a[0], &rational::cross(&a[1], &a[2])))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_touches_is_kept_and_what_lies_beside_is_not() {
+        let corner = |x: f32, y: f32| [x, y, 8.0];
+        let triangles = [
+            // Inside, either way round; the sample on an edge, on a corner; beside; behind;
+            // without area; edge-on.
+            [corner(-1.0, -1.0), corner(1.0, -1.0), corner(0.0, 1.0)],
+            [corner(0.0, 1.0), corner(1.0, -1.0), corner(-1.0, -1.0)],
+            [corner(-1.0, 0.0), corner(1.0, 0.0), corner(0.0, 1.0)],
+            [corner(0.0, 0.0), corner(1.0, 0.0), corner(0.0, 1.0)],
+            [corner(0.001, -1.0), corner(1.0, -1.0), corner(1.0, 1.0)],
+            [[-1.0, -1.0, -8.0], [1.0, -1.0, -8.0], [0.0, 1.0, -8.0]],
+            [corner(0.0, 0.0), corner(0.0, 0.0), corner(0.0, 1.0)],
+            [corner(0.0, -1.0), corner(0.0, 1.0), [0.0, 0.0, 9.0]],
+        ];
+        let mesh = TriangleMesh {
+            positions: triangles.into_iter().flatten().collect(),
+            corners: (0..8).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]).collect(),
+            ..TriangleMesh::default()
+        };
+        for scale in [2.0_f64.powi(-300), 1.0, 2.0_f64.powi(300)] {
+            let near = Outlines::of(&mesh, [0.0; 3]).near([0.0, 0.0, scale]);
+            assert_eq!(near, [0, 1, 2, 3].map(TriangleId::new));
+        }
+    }
+}

@@ -1,6 +1,7 @@
 //! The arbiter against answers that were known beforehand: golden scenes of another program, and
 //! hard cases whose answer is counted by hand. Nothing here compares it with a visibility path.
 
+mod closed_meshes;
 mod hard_cases;
 mod shortcut;
 
