@@ -1,0 +1,4 @@
+//! What several test modules need: scenes with known answers, the standard camera, shapes.
+
+pub(crate) mod golden;
+pub(crate) mod scenes;
