@@ -52,6 +52,11 @@ fn build_all(triangles: &[[[f32; 3]; 3]], deepest: usize) {
     }
 }
 
+/// 2^k, also below the normal range.
+fn power_of_two(k: i32) -> f32 {
+    2.0_f64.powi(k) as f32
+}
+
 /// A triangle of size `s` whose first corner is `p`.
 fn corner_at(p: [f32; 3], s: f32) -> [[f32; 3]; 3] {
     [p, [p[0] + s, p[1], p[2] + s], [p[0], p[1] + s, p[2]]]
@@ -88,10 +93,10 @@ fn h59_concentric_triangles_build_flat() {
 
 #[test]
 fn h65_chains_of_sizes_stay_flat() {
-    let powers: Vec<_> = (-140..120).map(|k| corner_at([0.0; 3], 2.0_f32.powi(k))).collect();
+    let powers: Vec<_> = (-140..120).map(|k| corner_at([0.0; 3], power_of_two(k))).collect();
     build_all(&powers, DEEPEST);
     let apart: Vec<_> = (-60..60)
-        .map(|k| corner_at([2.0_f32.powi(k + 2), 0.0, -(2.0_f32.powi(k + 2))], 2.0_f32.powi(k)))
+        .map(|k| corner_at([power_of_two(k + 2), 0.0, -(power_of_two(k + 2))], power_of_two(k)))
         .collect();
     build_all(&apart, DEEPEST);
 }
@@ -119,8 +124,8 @@ fn regular_grids_are_not_quadratic() {
 
 #[test]
 fn h61_every_magnitude_builds() {
-    let largest = 2.0_f32.powi(126);
-    for scale in [1e-45_f32, 1e-40, 2.0_f32.powi(-100), 1e19, 2.0_f32.powi(100), largest / 16.0] {
+    let largest = power_of_two(126);
+    for scale in [1e-45_f32, 1e-40, power_of_two(-100), 1e19, power_of_two(100), largest / 16.0] {
         let triangles: Vec<_> = (0..200)
             .map(|i| {
                 let f = |n: u32| ((i * n % 17) as f32 - 8.0) * scale;
@@ -132,7 +137,7 @@ fn h61_every_magnitude_builds() {
     // All magnitudes in one scene.
     let mixed: Vec<_> = (0..400)
         .map(|i| {
-            let s = 2.0_f32.powi(i * 267 / 400 - 143);
+            let s = power_of_two(i * 267 / 400 - 143);
             corner_at([s, -s, s * (i % 3) as f32], s)
         })
         .collect();
