@@ -202,6 +202,10 @@ fn a_lights_own_ambient_is_neither_gated_nor_attenuated() {
     let behind = [0.0, 0.0, -5.0];
     let mut outside = spot([0.0, 0.0, 4.0], [1.0, 0.0, 0.0], 10.0, 2.0);
     outside.colors = bright;
+    // Inside the cone, but beside the light: (L·S)^e is 0, and so is the denominator c·r² in f64.
+    let mut beside = spot([0.0, 0.0, 1e-170], [1.0, 0.0, 0.0], 120.0, 2.0);
+    beside.attenuation = [0.0, 0.0, 5e-324];
+    beside.colors = bright;
     let cases = [
         (directional([0.0, 0.0, -1.0], own), Outcome::NoColor),
         (directional([0.0, 0.0, 1.0], bright), Outcome::FacesAway),
@@ -210,6 +214,7 @@ fn a_lights_own_ambient_is_neither_gated_nor_attenuated() {
         (point([0.0, 0.0, 1e200], [0.0, 0.0, 1e9], bright), Outcome::Faded),
         (point([0.0; 3], [0.0, 0.0, 1.0], bright), Outcome::AtSurface),
         (Light::Spot(outside), Outcome::OutsideCone),
+        (Light::Spot(beside), Outcome::Faded),
     ];
     for (light, outcome) in cases {
         let mut scene = floor();

@@ -55,14 +55,15 @@ fn a_point_on_a_huge_floor_is_as_exact_as_its_ray() {
     let s = 1e8_f32;
     let mut scene = Scene::from_triangles(
         super::stage::camera(),
-        &[[[-s, -s, -3.0], [s, -s, -3.0], [0.0, s, -3.0]]],
+        &[[[-s, -s, -2.7], [s, -s, -2.7], [0.0, s, -2.7]]],
     );
     scene.lights = vec![directional([0.0, 0.0, -1.0], white())];
     for (x, y) in [(0, 0), (3, -7), (-8, 8)] {
         let visible = look_at(&scene, pixel_at(x, y)).unwrap();
         let (point, _) = shade::surface_point(&scene, pixel_at(x, y), &visible);
-        // The ray (x, y, −8)·t reaches z = −3 at t = 11/8.
-        let right = [f64::from(x) * 1.375, f64::from(y) * 1.375, -3.0];
+        // The ray (x, y, −8)·t reaches the floor at t = (8 − z)/8.
+        let z = f64::from(-2.7_f32);
+        let right = [f64::from(x) * (8.0 - z) / 8.0, f64::from(y) * (8.0 - z) / 8.0, z];
         for (value, right) in point.position.iter().zip(right) {
             // An ulp of the eye's distance and of t.
             assert!((value - right).abs() <= 16.0 * ULP, "{value} {right}");
