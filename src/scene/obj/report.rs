@@ -36,8 +36,13 @@ struct Warning {
 impl Report {
     /// Notes a fault.
     pub(super) fn error(&mut self, error: SceneError) {
+        self.error_with(|| error);
+    }
+
+    /// Notes a fault whose description costs time, which is spent only if it is kept.
+    pub(super) fn error_with(&mut self, describe: impl FnOnce() -> SceneError) {
         if self.errors.len() < MAX_ERRORS {
-            self.errors.push(error);
+            self.errors.push(describe());
         } else {
             self.suppressed_errors += 1;
         }

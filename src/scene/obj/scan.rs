@@ -72,7 +72,7 @@ pub(super) fn scan(text: &str, file: &Path, report: &mut Report) -> Scan {
             report.error(error);
         }
     }
-    state.finish(file, report)
+    state.finish(&walk, file, report)
 }
 
 /// Words of the OBJ specification that make no surface of triangles.
@@ -99,7 +99,7 @@ const DISPLAY: &[&str] = &[
 ];
 
 /// What earlier statements mean for the following ones.
-struct State {
+struct State<'a> {
     scan: Scan,
     group: u32,
     has_groups: bool,
@@ -108,10 +108,10 @@ struct State {
     next_material: Option<Name>,
     material_positions: HashMap<String, u32>,
     /// References to statements that had not come yet when they were read.
-    forward: Vec<(Kind, u32, Place)>,
+    forward: Vec<(Kind, u32, Token<'a>)>,
 }
 
-impl State {
+impl<'a> State<'a> {
     fn new() -> Self {
         Self {
             scan: Scan::default(),
@@ -126,7 +126,7 @@ impl State {
 
     fn read(
         &mut self,
-        walk: &Statements<'_>,
+        walk: &Statements<'a>,
         file: &Path,
         report: &mut Report,
     ) -> Result<(), SceneError> {
@@ -203,7 +203,8 @@ impl State {
         lengths: &[usize],
     ) -> Result<(), SceneError> {
         // A wrong statement still counts, so that later indices are not all wrong with it.
-        self.scan.counts[kind as usize] += 1;
+        let count = &mut self.scan.counts[kind as usize];
+        *count = count.saturating_add(1);
         let (keyword, values) = (walk.keyword(), walk.values());
         if !lengths.contains(&values.len()) {
             let wanted: Vec<String> = lengths.iter().map(ToString::to_string).collect();
@@ -229,7 +230,7 @@ impl State {
         Ok(())
     }
 
-    fn read_face(&mut self, walk: &Statements<'_>) -> Result<(), SceneError> {
+    fn read_face(&mut self, walk: &Statements<'a>) -> Result<(), SceneError> {
         let (keyword, values) = (walk.keyword(), walk.values());
         if values.len() < 3 {
             let message = format!("a face of {} corners; it needs at least 3", values.len());
@@ -251,8 +252,8 @@ impl State {
 
     fn read_corner(
         &mut self,
-        walk: &Statements<'_>,
-        token: &Token<'_>,
+        walk: &Statements<'a>,
+        token: &Token<'a>,
     ) -> Result<Corner, SceneError> {
         let fault = |message: String| SceneError::scene(walk.place(token), message);
         let written = corner::parse(token.text).map_err(fault)?;
@@ -262,7 +263,7 @@ impl State {
             let count = self.scan.counts[kind as usize];
             let index = corner::resolve(kind, index, count).map_err(fault)?;
             if index >= count {
-                self.forward.push((kind, index, walk.place(token)));
+                self.forward.push((kind, index, *token));
             }
             resolved[kind as usize] = index;
         }
@@ -299,13 +300,15 @@ impl State {
         }
     }
 
-    fn finish(mut self, file: &Path, report: &mut Report) -> Scan {
+    fn finish(mut self, walk: &Statements<'_>, file: &Path, report: &mut Report) -> Scan {
         // Positive indices may point forward, so that only the end shows which exist.
-        for (kind, index, place) in self.forward {
+        for (kind, index, token) in self.forward {
             let count = self.scan.counts[kind as usize];
             if index >= count {
-                let message = corner::describe_missing(kind, i64::from(index) + 1, count);
-                report.error(SceneError::scene(place, message));
+                report.error_with(|| {
+                    let message = corner::describe_missing(kind, i64::from(index) + 1, count);
+                    SceneError::scene(walk.place(&token), message)
+                });
             }
         }
         if !self.has_groups {
