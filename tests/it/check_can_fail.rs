@@ -1,7 +1,7 @@
 //! The cross-check must find deliberately damaged answers, at the right pixels, and blame the right
 //! path; and it must not pass where nothing is covered.
 
-use crate::support::{grid_camera, grid_scene};
+use crate::support::scenes::{grid_camera, pixel_grid};
 use std::collections::BTreeSet;
 use truecast::check::{
     Answered, Blame, BothAnswers, CheckOptions, Kind, Outcome, Report, answer, judge,
@@ -18,7 +18,7 @@ const RASTER: usize = 1;
 
 /// A grid whose vertices lie on samples, one triangle of it twice, and a tilted sheet through it.
 fn scene() -> Scene {
-    let mut triangles = grid_scene(33, 8, 16.0);
+    let mut triangles = pixel_grid(33, 4, 16.0);
     triangles.push(triangles[20]);
     triangles.push([[-14.0, -9.0, 10.0], [12.0, -11.0, 22.0], [3.0, 13.0, 15.0]]);
     let mut scene = Scene::from_triangles(grid_camera(33, 16.0), &triangles);
@@ -85,14 +85,9 @@ fn a_shift_by_half_a_pixel_is_found() {
         let camera = &scene.camera;
         let d0 = std::array::from_fn(|k| camera.d0()[k] + 0.5 * camera.dx()[k]);
         let mut shifted = scene.clone();
-        shifted.camera = PinholeCamera::exact(
-            camera.resolution(),
-            camera.eye(),
-            d0,
-            camera.dx(),
-            camera.dy(),
-        )
-        .unwrap();
+        shifted.camera =
+            PinholeCamera::exact(camera.resolution(), camera.eye(), d0, camera.dx(), camera.dy())
+                .unwrap();
         answer_about(&shifted, path)
     });
 }

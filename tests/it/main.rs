@@ -1,13 +1,22 @@
 //! The integration tests, one binary. Each module says what belongs in it.
 
+// The arbiter against golden images, hand values and its own undiscarded self.
+mod arbiter;
+// The ray caster on golden and hard scenes: all build presets, tile sizes, threads.
+mod cast;
+// The check finds damaged answers and blames the right path.
+mod check_can_fail;
+// The program as a user meets it.
+mod cli;
 // Files written and read back: EXR, PNG, NPY, atomic writes.
 mod film;
+// Who may import whom: the house's floors as a table.
+mod layers;
+// Every row of the lighting systems by its name.
+mod lighting;
+// OBJ and MTL, one test per misreading.
+mod obj;
 // Bad scene files: every error with its line and column.
 mod scene_errors;
-//! tests
-
-mod obj;
-//! Everything that needs the library as a whole, in one binary.
-
-mod lighting;
-mod cast;
+// Golden scenes and builders that several modules use.
+mod support;

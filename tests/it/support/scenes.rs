@@ -83,3 +83,25 @@ pub(crate) fn integer_chaos(seed: u64) -> Vec<Triangle> {
     }
     triangles
 }
+
+/// G(f) with `side` × `side` pixels (odd): the middle pixel looks along (0, 0, f).
+pub(crate) fn grid_camera(side: u32, f: f64) -> PinholeCamera {
+    let corner = -f64::from(side) / 2.0;
+    let frame = Resolution::new(side, side).unwrap();
+    let (dx, dy) = ([1.0, 0.0, 0.0], [0.0, 1.0, 0.0]);
+    PinholeCamera::exact(frame, [0.0; 3], [corner, corner, f], dx, dy).unwrap()
+}
+
+/// Squares of `cell` pixels that fill the frame of `grid_camera(side, z)`, all vertices exactly on
+/// pixel centres, two triangles each, at depth `z`.
+pub(crate) fn pixel_grid(side: u32, cell: u32, z: f32) -> Vec<Triangle> {
+    let half = (side / 2) as i32;
+    let cell = cell as i32;
+    let starts = || (-half..half).step_by(cell as usize);
+    starts()
+        .flat_map(|y| starts().map(move |x| [x, y]))
+        .flat_map(|[x, y]| {
+            rectangle([x, y].map(|c| c as f32), [x + cell, y + cell].map(|c| c as f32), z)
+        })
+        .collect()
+}
