@@ -51,8 +51,9 @@ fn double_sides_turn_the_normal_single_sides_do_not() {
 
 #[test]
 fn a_point_on_a_huge_floor_is_as_exact_as_its_ray() {
-    // H74's floor: corners at ±1e8, so that weights of 2^-50 place a point only to 1e-7.
-    let s = 1e8_f32;
+    // Like the floor of H74, larger still: seen from its corners, f64 places a point to 2^-23 only,
+    // and these points lie on multiples of 2^-25.
+    let s = 1e9_f32;
     let mut scene = Scene::from_triangles(
         super::stage::camera(),
         &[[[-s, -s, -2.7], [s, -s, -2.7], [0.0, s, -2.7]]],
