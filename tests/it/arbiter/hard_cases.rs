@@ -20,7 +20,7 @@ fn standard_answers(triangles: &[Triangle]) -> Vec<Answer> {
 }
 
 fn single(triangles: &[Triangle], direction: [f64; 3]) -> Answer {
-    let scene = Scene::from_triangles(single_ray_camera(direction), triangles);
+    let scene = Scene::from_triangles(single_ray_camera([0.0; 3], direction), triangles);
     Arbiter::new(&scene).answer(Pixel { x: 0, y: 0 })
 }
 

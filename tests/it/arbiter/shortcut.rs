@@ -1,9 +1,12 @@
 //! The interval test that spares the arbiter most triangles must never change an answer.
 
 use crate::support::golden;
-use crate::support::scenes::{Triangle, fan, integer_chaos, rectangle, scaled_camera};
+use crate::support::scenes::{
+    Triangle, fan, integer_chaos, rectangle, scaled_camera, single_ray_camera,
+};
 use truecast::exact::Arbiter;
 use truecast::mesh::TriangleId;
+use truecast::pixel::Pixel;
 use truecast::scene::Scene;
 
 /// Answers with and without the interval test, at every `step`-th pixel.
@@ -54,4 +57,43 @@ fn nor_where_edges_pass_one_float_beside_samples() {
         }
     }
     assert_same("edges", &Scene::from_triangles(scaled_camera(8.0, 1.0), &triangles), 3);
+}
+
+/// Triangles with a corner exactly on the ray: two of their three determinants are exactly 0, but
+/// every product and sum on the way to them rounds. Each decides by the sign of noise unless the
+/// intervals are kept wide.
+#[test]
+fn nor_where_rays_pass_exactly_through_corners() {
+    let mut state = 1_u64;
+    // 24 random bits in [½, 1), then a random sign and a random power of two down to `smallest`.
+    let mut number = |smallest: i32| {
+        state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        let bits = (state >> 41) as f32 / (1_u32 << 24) as f32 + 0.5;
+        let power = (state >> 33 & 0xff) as i32 % (smallest - 1);
+        let sign = if state >> 40 & 1 == 0 { 1.0 } else { -1.0 };
+        bits * sign * 2.0_f32.powi(-power.abs())
+    };
+    let (mut covering, mut touching) = (0, 0);
+    for round in 0..40 {
+        let hub = [number(0).abs(), number(0).abs(), number(0).abs()];
+        let direction = [number(0), number(0), number(0)].map(f64::from);
+        // The ray reaches the hub at t = 1/8; both terms are multiples of 2^-27, so e is exact.
+        let eye = match round % 2 {
+            0 => [0, 1, 2].map(|k| f64::from(hub[k]) - direction[k] / 8.0),
+            _ => [0.0; 3],
+        };
+        let direction = if round % 2 == 0 { direction } else { hub.map(f64::from) };
+        let triangles: Vec<Triangle> = (0..30)
+            .map(|_| [hub, [0; 3].map(|_| number(-60)), [0; 3].map(|_| number(-60))])
+            .collect();
+        let scene = Scene::from_triangles(single_ray_camera(eye, direction), &triangles);
+        assert_same(&format!("round {round}"), &scene, 1);
+        let arbiter = Arbiter::new(&scene);
+        let candidates = arbiter.candidates(Pixel { x: 0, y: 0 });
+        touching += candidates.iter().filter(|c| c.edge_signs == [1, 0, 0]).count();
+        covering += candidates.iter().filter(|c| c.covers).count();
+    }
+    assert!(touching > 400, "half of 1200 triangles or so touch the ray: {touching}");
+    assert!(covering > 100, "and half of these or so cover it: {covering}");
 }

@@ -24,12 +24,12 @@ pub(crate) fn scaled_camera(f: f64, scale: f64) -> PinholeCamera {
 }
 
 /// A camera of one pixel whose sample looks along `direction` (components about 1), which may be
-/// moved by the lattice by 2^-52 at most.
-pub(crate) fn single_ray_camera(direction: [f64; 3]) -> PinholeCamera {
+/// moved by the lattice by 2^-52 at most and is kept when it holds f32 numbers.
+pub(crate) fn single_ray_camera(eye: [f64; 3], direction: [f64; 3]) -> PinholeCamera {
     let half_pixel = 2.0_f64.powi(-11);
     let d0 = [direction[0] - half_pixel, direction[1] - half_pixel, direction[2]];
     let (dx, dy) = ([2.0 * half_pixel, 0.0, 0.0], [0.0, 2.0 * half_pixel, 0.0]);
-    PinholeCamera::exact(Resolution::new(1, 1).unwrap(), [0.0; 3], d0, dx, dy).unwrap()
+    PinholeCamera::exact(Resolution::new(1, 1).unwrap(), eye, d0, dx, dy).unwrap()
 }
 
 /// Triangles seen by G(8).
