@@ -4,6 +4,9 @@
 //! each from its own rows alone, and written from the top down. For the same reason there is no
 //! date and exactly one attribute of our own: the `exr` crate writes such attributes in the order of
 //! a hash map, which differs between runs. Tiles, deep samples and several parts are not written.
+//!
+//! A frame of 1920 × 1080 costs about 1.5 core seconds with 27 planes and 0.5 with R, G, B, A, Z,
+//! nearly all of it compression, which the threads share.
 
 mod decode;
 

@@ -203,3 +203,31 @@ fn broken_films_are_refused() {
         assert!(error.to_string().contains(word), "{error}");
     }
 }
+
+#[test]
+fn half_samples_of_others_become_floats_and_tiles_are_refused() {
+    use ::exr::prelude::{
+        Encoding, Image, Layer, LayerAttributes, SpecificChannels, Vec2, WritableImage, f16,
+    };
+    let write = |encoding: Encoding| {
+        let channels = SpecificChannels::build()
+            .with_channel("Z")
+            .with_pixel_fn(|Vec2(x, y)| (f16::from_bits((x * 700 + y) as u16),));
+        let layer = Layer::new((30, 20), LayerAttributes::default(), encoding, channels);
+        let mut bytes = std::io::Cursor::new(Vec::new());
+        Image::from_layer(layer).write().to_buffered(&mut bytes).unwrap();
+        bytes.into_inner()
+    };
+    let film = decode_exr(&write(Encoding::SMALL_LOSSLESS)).unwrap();
+    let expected: Vec<f32> = film
+        .window
+        .pixels()
+        .map(|at| f16::from_bits((at.x * 700 + at.y) as u16).to_f32())
+        .collect();
+    assert_eq!(film.window.len(), 600);
+    assert_eq!(film.plane("Z"), Some(&Samples::Float(expected)));
+    assert_eq!(film.description, "");
+
+    let error = decode_exr(&write(Encoding::FAST_LOSSLESS)).unwrap_err().to_string();
+    assert!(error.contains("tiled"), "{error}");
+}
