@@ -16,6 +16,7 @@ mod mtl;
 mod polygon;
 mod report;
 mod scan;
+mod scanned;
 mod smooth;
 mod statement;
 
@@ -29,7 +30,7 @@ use std::path::Path;
 /// What an OBJ file and its material libraries hold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ObjFile {
-    /// The triangles in file order; polygons are cut as `scene` files define it. Positions are
+    /// The triangles in file order; convex polygons are fans, concave ones lose ears. Positions are
     /// those that faces use, in order of first use.
     pub part: MeshPart,
     /// One material per entry of `part.material_names`, with that name. Names that no library

@@ -70,9 +70,9 @@ fn a_plain_face_has_lines_and_no_attributes_of_its_own() {
 
 #[test]
 fn positions_keep_all_digits_and_unused_ones_go() {
-    let file = read("v 0.1 1e-300 -123456789.123456789\nf 5 2 3\n");
+    let file = read("v 0.1 1e-300 -123456789.12345679\nf 5 2 3\n");
     assert_eq!(file.part.positions.len(), 3);
-    assert_eq!(file.part.positions[0], [0.1, 1e-300, -123_456_789.123_456_789]);
+    assert_eq!(file.part.positions[0], [0.1, 1e-300, -123_456_789.123_456_79]);
 }
 
 #[test]

@@ -7,7 +7,7 @@ use crate::scene::obj::polygon::{
     MAX_CONCAVE_CORNERS, Outcome, scale_corners, triangulate, vector_area,
 };
 use crate::scene::obj::report::Report;
-use crate::scene::obj::scan::{Face, Scan};
+use crate::scene::obj::scanned::{Face, Scan};
 use crate::scene::obj::smooth;
 use crate::scene::part::MeshPart;
 use std::ops::Range;

@@ -56,10 +56,10 @@ pub(super) fn parse(text: &str) -> Result<[Option<i64>; 3], String> {
 /// A sentence: a negative index reaches before the first statement, or the index is too large.
 pub(super) fn resolve(kind: Kind, index: i64, count: u32) -> Result<u32, String> {
     let resolved = if index > 0 { index - 1 } else { index.saturating_add(i64::from(count)) };
-    if resolved < 0 || resolved > MAX_INDEX {
-        return Err(describe_missing(kind, index, count));
+    match (0..=MAX_INDEX).contains(&resolved) {
+        true => Ok(resolved as u32),
+        false => Err(describe_missing(kind, index, count)),
     }
-    Ok(resolved as u32)
 }
 
 /// The sentence for an index that refers to nothing.

@@ -6,7 +6,7 @@
 
 use crate::mesh::NO_ATTRIBUTE;
 use crate::scene::obj::corner::Kind;
-use crate::scene::obj::scan::Scan;
+use crate::scene::obj::scanned::Scan;
 use std::fmt::Write;
 
 /// Attributes that faces use, each once, and the corners' indices into them.

@@ -6,7 +6,7 @@
 use crate::scene::material::Material;
 use crate::scene::obj::mtl::{Library, read_library};
 use crate::scene::obj::report::{Report, quote};
-use crate::scene::obj::scan::{Name, Scan};
+use crate::scene::obj::scanned::{Name, Scan};
 use crate::scene::obj::statement::{decode, without_comment};
 use std::collections::HashSet;
 use std::io;

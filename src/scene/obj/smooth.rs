@@ -6,7 +6,7 @@
 
 use crate::mesh::NO_ATTRIBUTE;
 use crate::scene::obj::polygon::{scale_corners, unit_normal};
-use crate::scene::obj::scan::Face;
+use crate::scene::obj::scanned::Face;
 use std::collections::HashMap;
 
 /// A shorter sum of unit normals has no direction worth using: each is off by less than 16 units
@@ -22,6 +22,39 @@ struct Around {
     normal: Option<u32>,
 }
 
+/// Numbers the pairs of position and smoothing group in order of first use.
+enum Slots {
+    /// One group besides 0, as in most files: by position, without hashing.
+    OneGroup(Vec<u32>),
+    /// By position and group.
+    Groups(HashMap<(u32, u32), u32>),
+}
+
+impl Slots {
+    fn new(faces: &[Face], position_count: usize) -> Self {
+        let mut groups = faces.iter().map(|face| face.group).filter(|&group| group != 0);
+        let first = groups.next();
+        match groups.all(|group| Some(group) == first) {
+            true => Self::OneGroup(vec![NO_ATTRIBUTE; position_count]),
+            false => Self::Groups(HashMap::with_capacity(position_count)),
+        }
+    }
+
+    /// The number of a pair, which is `next` when it is new.
+    fn find(&mut self, position: u32, group: u32, next: u32) -> u32 {
+        match self {
+            Self::Groups(numbers) => *numbers.entry((position, group)).or_insert(next),
+            Self::OneGroup(numbers) => {
+                let number = &mut numbers[position as usize];
+                if *number == NO_ATTRIBUTE {
+                    *number = next;
+                }
+                *number
+            }
+        }
+    }
+}
+
 /// Fills `corner_normals`, one entry per corner, where it holds `NO_ATTRIBUTE` and the face has a
 /// smoothing group; appends to `normals`. Corners where all faces are degenerate or cancel out
 /// stay as they are.
@@ -33,7 +66,7 @@ pub(super) fn generate(
     corner_normals: &mut [u32],
 ) {
     // Add each face's normal to its vertices.
-    let mut slots: HashMap<(u32, u32), u32> = HashMap::with_capacity(positions.len());
+    let mut slots = Slots::new(faces, positions.len());
     let mut sums: Vec<Around> = Vec::with_capacity(positions.len());
     let mut corner_slots = vec![NO_ATTRIBUTE; corner_positions.len()];
     let mut scaled = Vec::new();
@@ -48,10 +81,10 @@ pub(super) fn generate(
         scale_corners(corners.map(|&position| positions[position as usize]), &mut scaled);
         let normal = unit_normal(&scaled);
         for corner in range {
-            let slot = *slots.entry((corner_positions[corner], face.group)).or_insert_with(|| {
+            let slot = slots.find(corner_positions[corner], face.group, sums.len() as u32);
+            if slot as usize == sums.len() {
                 sums.push(Around { sum: [0.0; 3], last_face: usize::MAX, normal: None });
-                sums.len() as u32 - 1
-            });
+            }
             corner_slots[corner] = slot;
             let around = &mut sums[slot as usize];
             if let (Some(normal), true) = (normal, around.last_face != number) {

@@ -45,8 +45,10 @@ fn convex_polygons_are_fans() {
     // A straight corner keeps the fan, and with it a triangle without area.
     let straight = [[0.0, 0.0], [0.5, 0.0], [1.0, 0.0], [1.0, 1.0]];
     assert_eq!(split(&straight), (Outcome::Covered, vec![[0, 1, 2], [0, 2, 3]]));
-    let circle: Vec<[f64; 2]> =
-        (0..100_000).map(|i| f64::from(i) * 1e-5 * 6.28).map(|a| [a.cos(), a.sin()]).collect();
+    let circle: Vec<[f64; 2]> = (0..100_000)
+        .map(|i| f64::from(i) * 1e-5 * std::f64::consts::TAU)
+        .map(|a| [a.cos(), a.sin()])
+        .collect();
     let (outcome, triangles) = split(&circle);
     assert_eq!((outcome, triangles.len()), (Outcome::Covered, 99_998));
     assert_eq!(triangles[50_000], [0, 50_001, 50_002]);
