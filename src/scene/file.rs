@@ -92,6 +92,7 @@
 //! This version simulates every switch at `curless`' value, which is the default shown.
 
 mod camera;
+mod generated;
 mod keys;
 mod light;
 mod mesh;
@@ -102,6 +103,7 @@ pub(crate) mod text;
 mod values;
 
 pub use camera::{CameraFile, CameraForm, ImageFile};
+pub use generated::GeneratedFile;
 pub(crate) use keys::suggestion;
 pub use light::LightFile;
 pub use mesh::{MaterialFile, MeshFile, SourceFile};

@@ -2,6 +2,7 @@
 //! simulate. Every fault is reported; the scene is made only of what has none.
 
 mod camera;
+mod library;
 mod light;
 mod material;
 mod mesh;

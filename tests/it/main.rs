@@ -18,5 +18,9 @@ mod lighting;
 mod obj;
 // Bad scene files: every error with its line and column.
 mod scene_errors;
+// The documented keys are the parser's keys.
+mod scene_keys;
+// Good scene files: defaults, camera forms, transforms, materials.
+mod scene_load;
 // Golden scenes and builders that several modules use.
 mod support;

@@ -1,12 +1,10 @@
 //! `[[material]]` and `[[mesh]]` as written.
 
-use super::keys::{Keys, suggestion};
-use super::shape::ShapeFile;
+use super::generated::GeneratedFile;
+use super::keys::Keys;
 use super::text::{Faults, Span};
-use super::values::{Value, kind, matrix, number, numbers, one_or_three, text};
-use serde::Deserialize;
+use super::values::{matrix, number, numbers, one_or_three, text};
 use toml::Spanned;
-use toml::de::{DeTable, DeValue, ValueDeserializer};
 
 /// `[[material]]`.
 #[derive(Clone, Debug)]
@@ -80,8 +78,8 @@ pub struct MeshFile {
 pub enum SourceFile {
     /// `file`.
     File(Spanned<String>),
-    /// `shape`: its name and its numbers.
-    Shape(String, Spanned<ShapeFile>),
+    /// `shape`.
+    Shape(GeneratedFile),
 }
 
 impl MeshFile {
@@ -105,97 +103,15 @@ impl MeshFile {
             }
             _ => {}
         }
-        let shape = shape.and_then(|value| read_shape(value, faults));
+        let shape = shape.and_then(|value| GeneratedFile::read(value, faults));
         if !keys.close(faults) {
             return None;
         }
         let source = match (file, shape) {
             (Some(file), _) => SourceFile::File(file),
-            (None, Some((name, shape))) => SourceFile::Shape(name, shape),
+            (None, Some(shape)) => SourceFile::Shape(shape),
             (None, None) => return None,
         };
         Some(Self { source, material, shading, sides, translate, rotate_deg, scale, matrix, span })
-    }
-}
-
-/// Reads `{ NAME = { … } }`.
-fn read_shape(value: &Value<'_>, faults: &mut Faults<'_>) -> Option<(String, Spanned<ShapeFile>)> {
-    let DeValue::Table(table) = value.get_ref() else {
-        let message = format!("`shape` must be a table, not {}", kind(value.get_ref()));
-        faults.at_with_help(&value.span(), message, "write `shape = { NAME = { … } }`");
-        return None;
-    };
-    let mut names = table.iter();
-    let (Some((name, inner)), None) = (names.next(), names.next()) else {
-        let message = format!("`shape` must name one shape, not {}", table.len());
-        faults.at(&value.span(), message);
-        return None;
-    };
-    // Refuse numbers that are none here, where each has a place.
-    let numbers = if let DeValue::Table(inner) = inner.get_ref() { inner } else { &DeTable::new() };
-    let mut clean = true;
-    for (key, value) in numbers {
-        if let (DeValue::Float(_), Err(wrong)) = (value.get_ref(), number(value)) {
-            let message = format!(
-                "`{key}` must be {}, not {}",
-                wrong.expected,
-                wrong.found,
-                key = key.get_ref()
-            );
-            faults.at(&wrong.span, message);
-            clean = false;
-        }
-    }
-    if !clean {
-        return None;
-    }
-    match ShapeFile::deserialize(ValueDeserializer::from(value.clone())) {
-        Ok(shape) => Some((name.get_ref().to_string(), Spanned::new(value.span(), shape))),
-        Err(error) => {
-            report_shape(&error, name.get_ref(), numbers, &value.span(), faults);
-            None
-        }
-    }
-}
-
-/// Says in our words what serde says of a shape.
-fn report_shape(
-    error: &toml::de::Error,
-    shape: &str,
-    numbers: &DeTable<'_>,
-    whole: &Span,
-    faults: &mut Faults<'_>,
-) {
-    let span = error.span().unwrap_or_else(|| whole.clone());
-    let message = error.message();
-    // Names stand in backticks: the offender first, then those that are known.
-    let quoted: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
-    match (&quoted[..], message.split_once(", expected ")) {
-        ([offender, known @ ..], _) if message.starts_with("unknown field") => faults.at_with_help(
-            &span,
-            format!("unknown key `{offender}` in shape `{shape}`"),
-            suggestion(offender, known),
-        ),
-        ([offender, known @ ..], _) if message.starts_with("unknown variant") => {
-            let help = suggestion(offender, known);
-            faults.at_with_help(&span, format!("there is no shape `{offender}`"), help);
-        }
-        ([lacking, ..], _) if message.starts_with("missing field") => {
-            faults.at(&span, format!("shape `{shape}` lacks `{lacking}`"));
-        }
-        (_, Some((found, expected))) => {
-            let key = numbers.iter().find(|(_, value)| value.span() == span);
-            let name = key.map_or(shape, |(key, _)| key.get_ref());
-            let expected = match expected {
-                "f64" => "a number",
-                "u8" | "u16" | "u32" | "u64" | "usize" => "a whole number, 0 or more",
-                "i32" | "i64" => "a whole number",
-                other => other,
-            };
-            let found = found.rsplit_once(": ").map_or(found, |(_, found)| found);
-            let found = found.strip_prefix("integer ").unwrap_or(found).replace('`', "");
-            faults.at(&span, format!("`{name}` must be {expected}, not {found}"));
-        }
-        _ => faults.at(&span, format!("shape `{shape}`: {message}")),
     }
 }

@@ -105,7 +105,8 @@ pub(super) fn matrix<const N: usize>(value: &Value<'_>) -> Result<[[f64; N]; N],
         return misread(value, &expected, kind(value.get_ref()));
     };
     let mut rows = [[0.0; N]; N];
-    if elements.len() == N {
+    let of_rows = elements.iter().any(|element| element.get_ref().is_array());
+    if elements.len() == N && of_rows {
         for (row, element) in rows.iter_mut().zip(elements.iter()) {
             *row = numbers(element)?;
         }

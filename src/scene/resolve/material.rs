@@ -1,11 +1,10 @@
-//! The materials: those of the scene file first, then those that meshes bring along.
+//! The materials: those of the scene file first, then those that mesh files bring along.
 
 use super::{at_least_zero, color};
 use crate::scene::file::text::Faults;
 use crate::scene::file::{MaterialFile, SceneFile};
 use crate::scene::material::Material;
 use std::collections::HashMap;
-use std::path::{Path, PathBuf};
 use toml::Spanned;
 
 /// The scene's materials as they grow.
@@ -14,13 +13,12 @@ pub(super) struct Materials {
     pub(super) list: Vec<Material>,
     /// Those of the scene file by name.
     pub(super) named: HashMap<String, u32>,
-    /// Those of mesh files; a name means its own file's material only.
-    of_files: HashMap<(PathBuf, String), u32>,
     default: Option<u32>,
 }
 
 impl Materials {
-    fn push(&mut self, material: Material) -> u32 {
+    /// Appends a material and gives its number.
+    pub(super) fn push(&mut self, material: Material) -> u32 {
         self.list.push(material);
         self.list.len() as u32 - 1
     }
@@ -33,26 +31,10 @@ impl Materials {
         let number = self.push(Material::default_named("default"));
         *self.default.insert(number)
     }
-
-    /// The number of a mesh file's material; the same for every mesh made of that file.
-    pub(super) fn of_file(&mut self, path: &Path, material: &Material) -> u32 {
-        let key = (path.to_owned(), material.name.clone());
-        if let Some(&number) = self.of_files.get(&key) {
-            return number;
-        }
-        let number = self.push(material.clone());
-        self.of_files.insert(key, number);
-        number
-    }
 }
 
 pub(super) fn resolve(file: &SceneFile, faults: &mut Faults<'_>) -> Materials {
-    let mut materials = Materials {
-        list: Vec::new(),
-        named: HashMap::new(),
-        of_files: HashMap::new(),
-        default: None,
-    };
+    let mut materials = Materials { list: Vec::new(), named: HashMap::new(), default: None };
     for written in &file.materials {
         let material = material(written, faults);
         let name = material.name.clone();

@@ -1,21 +1,18 @@
 //! The meshes: read or made, given their materials, transformed and assembled.
 
+use super::library::Library;
 use super::material::Materials;
 use crate::mesh::NO_ATTRIBUTE;
 use crate::scene::assemble::{Assembly, AssemblyFault, Piece};
 use crate::scene::error::{Place, SceneError};
 use crate::scene::file::text::Faults;
-use crate::scene::file::{MeshFile, SceneFile, SourceFile, suggestion};
-use crate::scene::obj::{self, ObjFile};
+use crate::scene::file::{GeneratedFile, MeshFile, SceneFile, SourceFile, suggestion};
 use crate::scene::part::MeshPart;
+use crate::scene::shapes::{self, Shape};
 use crate::scene::transform::Transform;
-use crate::scene::{Sides, Source, shapes};
-use std::collections::HashMap;
-use std::path::{Path, PathBuf};
+use crate::scene::{Sides, Source};
+use std::path::Path;
 use toml::Spanned;
-
-/// Mesh files that were read, once each; `None` for one with faults, which were reported.
-type Library = HashMap<PathBuf, Option<ObjFile>>;
 
 pub(super) fn resolve(
     file: &SceneFile,
@@ -24,7 +21,7 @@ pub(super) fn resolve(
     faults: &mut Faults<'_>,
 ) -> Assembly {
     let mut assembly = Assembly::default();
-    let mut library = Library::new();
+    let mut library = Library::default();
     for mesh in &file.meshes {
         // Report every fault of the mesh before giving it up.
         let transform = transform(mesh, faults);
@@ -33,26 +30,19 @@ pub(super) fn resolve(
         let named = named_material(mesh, file, materials, faults);
         let made;
         let (part, name, source, own) = match &mesh.source {
-            SourceFile::Shape(name, shape) => match shapes::build(&shape.get_ref().to_shape()) {
-                Ok(part) => {
-                    made = part;
-                    (&made, name.clone(), Source::Shape(name.clone()), Vec::new())
-                }
-                Err(error) => {
-                    faults.at(&shape.span(), format!("shape `{name}`: {error}"));
-                    continue;
-                }
-            },
+            SourceFile::Shape(written) => {
+                let shape = written.shape.get_ref().to_shape();
+                let Some(part) = build(&shape, written, faults) else { continue };
+                made = part;
+                (&made, shape.name().to_owned(), Source::Shape(shape.name().to_owned()), Vec::new())
+            }
             SourceFile::File(written) => {
                 let path = base.join(written.get_ref());
-                let Some(read) = read_file(&path, written, &mut library, faults) else { continue };
-                let own = if named.is_none() {
-                    own_materials(read, &path, materials, faults)
-                } else {
-                    Vec::new()
-                };
-                let source = Source::File { path, lines: read.part.lines.clone() };
-                (&read.part, written.get_ref().clone(), source, own)
+                let Some(read) = library.read(&path, written, faults) else { continue };
+                let own =
+                    if named.is_none() { read.numbers(materials).to_vec() } else { Vec::new() };
+                let lines = read.file.part.lines.clone();
+                (&read.file.part, written.get_ref().clone(), Source::File { path, lines }, own)
             }
         };
         let piece = Piece {
@@ -61,13 +51,25 @@ pub(super) fn resolve(
             sides,
             materials: triangle_materials(part, named, &own, materials),
             name,
-            source: source.clone(),
+            source,
         };
         if let Err(fault) = assembly.append(piece) {
-            faults.errors.push(assembly_error(&fault, mesh, &source, faults));
+            faults.errors.push(assembly_error(&fault, mesh, part, base, faults));
         }
     }
     assembly.finish()
+}
+
+/// Makes a shape; a parameter out of range is reported where it stands.
+fn build(shape: &Shape, written: &GeneratedFile, faults: &mut Faults<'_>) -> Option<MeshPart> {
+    let error = match shapes::build(shape) {
+        Ok(part) => return Some(part),
+        Err(error) => error,
+    };
+    let key = written.parameters.iter().find(|key| key.get_ref() == error.parameter);
+    let span = key.map_or(written.shape.span(), |key| key.span());
+    faults.at(&span, error.to_string());
+    None
 }
 
 fn transform(mesh: &MeshFile, faults: &mut Faults<'_>) -> Transform {
@@ -161,80 +163,10 @@ fn named_material(
     number
 }
 
-/// The file's mesh, read at its first use.
-fn read_file<'a>(
-    path: &Path,
-    written: &Spanned<String>,
-    library: &'a mut Library,
-    faults: &mut Faults<'_>,
-) -> Option<&'a ObjFile> {
-    let read = library.entry(path.to_owned()).or_insert_with(|| {
-        if let Err(error) = readable(path, faults.place(&written.span())) {
-            faults.errors.push(error);
-            return None;
-        }
-        match obj::load(path) {
-            Ok(file) => {
-                faults.warnings.extend(file.warnings.iter().cloned());
-                Some(file)
-            }
-            Err(errors) => {
-                faults.errors.extend(errors);
-                None
-            }
-        }
-    });
-    read.as_ref()
-}
-
-/// Whether a mesh file is there and of a kind that is read.
-fn readable(path: &Path, place: Place) -> Result<(), SceneError> {
-    let extension = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-    match extension.as_str() {
-        "obj" => {}
-        "ply" | "stl" | "gltf" | "glb" => {
-            let message = format!("{extension} files are not read by this version");
-            return Err(SceneError::scene(place, message).with_help("meshes are read from .obj"));
-        }
-        _ => {
-            let message = format!("`{}` is not the name of a mesh file", path.display());
-            return Err(SceneError::scene(place, message).with_help("meshes are read from .obj"));
-        }
-    }
-    let opened = std::fs::File::open(path).and_then(|file| file.metadata());
-    let why = match opened {
-        Ok(about) if about.is_dir() => "it is a folder".to_owned(),
-        Ok(_) => return Ok(()),
-        Err(error) => error.to_string(),
-    };
-    let message = format!("the mesh file `{}` cannot be read: {why}", path.display());
-    Err(SceneError::reading(place, message))
-}
-
-/// For each material that a file's triangles name, its number in the scene.
-fn own_materials(
-    read: &ObjFile,
-    path: &Path,
-    materials: &mut Materials,
-    faults: &mut Faults<'_>,
-) -> Vec<Option<u32>> {
-    let number_of = |name: &String| match read.materials.iter().find(|m| m.name == *name) {
-        Some(material) => Some(materials.of_file(path, material)),
-        None => {
-            let message = format!("{}: no library has the material `{name}`", path.display());
-            if !faults.warnings.contains(&message) {
-                faults.warnings.push(message);
-            }
-            None
-        }
-    };
-    read.part.material_names.iter().map(number_of).collect()
-}
-
 fn triangle_materials(
     part: &MeshPart,
     named: Option<u32>,
-    own: &[Option<u32>],
+    own: &[u32],
     materials: &mut Materials,
 ) -> Vec<u32> {
     if let Some(number) = named {
@@ -243,40 +175,38 @@ fn triangle_materials(
     (0..part.corners.len())
         .map(|triangle| {
             let name = part.triangle_materials.get(triangle).copied().unwrap_or(NO_ATTRIBUTE);
-            let own = own.get(name as usize).copied().flatten();
+            let own = own.get(name as usize).copied();
             own.unwrap_or_else(|| materials.default_number())
         })
         .collect()
 }
 
+/// A position out of range is the fault of the face in the mesh file that uses it, or of the mesh.
 fn assembly_error(
     fault: &AssemblyFault,
     mesh: &MeshFile,
-    source: &Source,
+    part: &MeshPart,
+    base: &Path,
     faults: &Faults<'_>,
 ) -> SceneError {
     let here = faults.place(&mesh.span);
-    match fault {
-        AssemblyFault::TooMany => {
-            SceneError::scene(here, "with this mesh the scene has more triangles than ids")
+    let AssemblyFault::Position { position: [x, y, z], triangle } = fault else {
+        return SceneError::scene(here, "with this mesh the scene has more triangles than ids");
+    };
+    let said = format!(
+        "a corner at ({x:e}, {y:e}, {z:e}) after the transform; \
+         each coordinate must be finite and at most 2^126 (8.5e37) in magnitude"
+    );
+    match &mesh.source {
+        SourceFile::Shape(written) => {
+            let name = written.shape.get_ref().to_shape().name();
+            SceneError::scene(here, format!("mesh `{name}`: {said}"))
         }
-        AssemblyFault::Position { position: [x, y, z], triangle } => {
-            let name = match source {
-                Source::Shape(name) => name.clone(),
-                Source::File { path, .. } => path.display().to_string(),
-            };
-            let message = format!(
-                "mesh `{name}`: a corner at ({x:e}, {y:e}, {z:e}) after the transform; \
-                 each coordinate must be finite and at most 2^126 (8.5e37) in magnitude"
-            );
-            match (source, triangle) {
-                (Source::File { path, lines }, Some(triangle)) => {
-                    let line = lines.get(*triangle).copied().unwrap_or(0);
-                    SceneError::scene(Place::at(path, line, 0), message)
-                        .with_help(format!("the mesh stands at {here}"))
-                }
-                _ => SceneError::scene(here, message),
-            }
+        SourceFile::File(written) => {
+            let line = triangle.and_then(|triangle| part.lines.get(triangle)).copied().unwrap_or(0);
+            let place = Place::at(&base.join(written.get_ref()), line, 0);
+            SceneError::scene(place, format!("mesh `{}`: {said}", written.get_ref()))
+                .with_help(format!("the mesh stands at {here}"))
         }
     }
 }
