@@ -21,12 +21,14 @@ pub(super) struct Keys<'a, 't> {
     /// Where the table begins.
     pub(super) header: Span,
     asked: Vec<&'static str>,
+    /// Required keys that are not there.
+    missing: Vec<&'static str>,
     clean: bool,
 }
 
 impl<'a, 't> Keys<'a, 't> {
     pub(super) fn new(table: &'a DeTable<'t>, header: Span, title: &'static str) -> Self {
-        Self { table, title, header, asked: Vec::new(), clean: true }
+        Self { table, title, header, asked: Vec::new(), missing: Vec::new(), clean: true }
     }
 
     /// The value of a key, as it is written.
@@ -61,8 +63,8 @@ impl<'a, 't> Keys<'a, 't> {
     ) -> Option<Spanned<T>> {
         let read = self.read(name, reader, faults);
         if !self.table.contains_key(name) {
-            let message = format!("{} lacks `{name}`", self.title);
-            self.fault(&self.header.clone(), message, faults);
+            self.missing.push(name);
+            self.clean = false;
         }
         read
     }
@@ -134,15 +136,24 @@ impl<'a, 't> Keys<'a, 't> {
         faults.at(span, message);
     }
 
-    /// Reports every key that nobody asked for. Whether the table had no fault at all.
+    /// Reports every key that is missing and every key that nobody asked for; a missing key that
+    /// an unknown one was meant to be is not reported twice. Whether the table had no fault at all.
     pub(super) fn close(self, faults: &mut Faults<'_>) -> bool {
-        let mut clean = self.clean;
-        for key in self.written() {
-            let name = key.get_ref().as_str();
-            if self.asked.contains(&name) {
-                continue;
+        let unknown: Vec<_> = self
+            .written()
+            .into_iter()
+            .filter(|key| !self.asked.contains(&key.get_ref().as_str()))
+            .collect();
+        for missing in &self.missing {
+            let is_misspelt =
+                |key: &Spanned<String>| most_similar(key.get_ref(), &self.asked) == Some(*missing);
+            if !unknown.iter().any(is_misspelt) {
+                faults.at(&self.header, format!("{} lacks `{missing}`", self.title));
             }
-            clean = false;
+        }
+        let clean = self.clean && unknown.is_empty();
+        for key in &unknown {
+            let name = key.get_ref().as_str();
             match refused::effect_of_key(name) {
                 Some(effect) => faults.at(&key.span(), format!("`{name}`: {effect}")),
                 None => faults.at_with_help(
@@ -158,14 +169,19 @@ impl<'a, 't> Keys<'a, 't> {
 
 /// "did you mean …?" where a known word is similar, else all known words.
 pub(crate) fn suggestion(written: &str, known: &[&str]) -> String {
-    let similarity = |word: &str| strsim::jaro_winkler(&written.to_lowercase(), word);
-    let best = known
-        .iter()
-        .map(|word| (similarity(word), word))
-        .max_by(|(a, _), (b, _)| a.total_cmp(b))
-        .filter(|(similarity, _)| *similarity >= SIMILAR);
-    match best {
-        Some((_, word)) => format!("did you mean `{word}`?"),
+    match most_similar(written, known) {
+        Some(word) => format!("did you mean `{word}`?"),
         None => format!("known here: {}", known.join(", ")),
     }
+}
+
+/// The known word that is most similar, if any is similar enough.
+fn most_similar<'k>(written: &str, known: &[&'k str]) -> Option<&'k str> {
+    let similarity = |word: &str| strsim::jaro_winkler(&written.to_lowercase(), word);
+    known
+        .iter()
+        .map(|&word| (similarity(word), word))
+        .max_by(|(a, _), (b, _)| a.total_cmp(b))
+        .filter(|(similarity, _)| *similarity >= SIMILAR)
+        .map(|(_, word)| word)
 }
