@@ -171,7 +171,9 @@ proptest! {
     /// The surface of a covering triangle: bounds of t that hold, weights good to 9u.
     #[test]
     fn surfaces_are_certain((ray, v) in aimed()) {
-        prop_assume!(coverage::decide(&ray, &v).0.is_some());
+        if coverage::decide(&ray, &v).0.is_none() {
+            return Ok(());
+        }
         let (w, plane) = by_integers(&ray, &v, ray.directions[0]);
         let speed: IBig = w.iter().sum();
         let sign = IBig::from(sign_of(&speed));
