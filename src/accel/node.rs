@@ -9,11 +9,9 @@ use super::entries::{Entries, LeafTriangle};
 use obvhs::bvh2::Bvh2;
 use std::ops::Range;
 
-/// A range of triangles that is not split further by position: four leaf tests cost about what
-/// one more level of boxes would.
+/// A range of triangles that is not split further by position. Only groups and balanced trees are
+/// cut so; everywhere else a leaf is one triangle, whose test costs more than a node's two boxes.
 const LEAF_SIZE: usize = 4;
-/// Most triangles that a leaf made of several items may hold.
-const MERGED_LEAF_SIZE: usize = 8;
 
 /// Where a child is: an inner node (`count` 0, `first` its index) or a range of triangles.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -46,10 +44,15 @@ pub(super) struct Tree {
 enum Part {
     /// A node of the builder's tree.
     Built(u32),
-    /// A range of the builder's list of items.
-    Items(Range<u32>),
     /// A range of entries.
     Entries(Range<u32>),
+}
+
+/// A part, the node and side that it belongs to, and its depth.
+struct Waiting {
+    part: Part,
+    slot: Option<(u32, usize)>,
+    depth: usize,
 }
 
 /// What a part turns into.
@@ -60,28 +63,31 @@ enum Opened {
 
 /// Lays out the builder's tree.
 pub(super) fn lay_out(entries: &Entries, shape: &Bvh2) -> Tree {
-    lay_out_part(entries, Some(shape), Part::Built(0))
+    lay_out_part(entries, shape, Part::Built(0))
 }
 
 /// Lays out a balanced tree over the order of the entries.
 pub(super) fn lay_out_balanced(entries: &Entries) -> Tree {
-    lay_out_part(entries, None, Part::Entries(0..entries.triangles.len() as u32))
+    let whole = Part::Entries(0..entries.triangles.len() as u32);
+    lay_out_part(entries, &Bvh2::default(), whole)
 }
 
-fn lay_out_part(entries: &Entries, shape: Option<&Bvh2>, whole: Part) -> Tree {
+fn lay_out_part(entries: &Entries, shape: &Bvh2, whole: Part) -> Tree {
     let mut tree =
         Tree { triangles: Vec::with_capacity(entries.triangles.len()), ..Tree::default() };
-    // A stack of its own, not recursion: shapes may be deep. `slot` is where the child belongs.
-    let mut waiting: Vec<(Part, Option<(u32, usize)>, usize)> = vec![(whole, None, 1)];
-    while let Some((part, slot, depth)) = waiting.pop() {
+    // A stack of its own, not recursion: shapes may be deep.
+    let mut waiting = vec![Waiting { part: whole, slot: None, depth: 1 }];
+    while let Some(Waiting { part, slot, depth }) = waiting.pop() {
         tree.depth = tree.depth.max(depth);
         let child = match open(entries, shape, part, &mut tree.triangles) {
             Opened::Leaf(child) => child,
             Opened::Inner(left, right) => {
                 let index = tree.nodes.len() as u32;
                 tree.nodes.push(Node { planes: Default::default(), children: Default::default() });
-                waiting.push((right, Some((index, 1)), depth + 1));
-                waiting.push((left, Some((index, 0)), depth + 1));
+                let below =
+                    |part, side| Waiting { part, slot: Some((index, side)), depth: depth + 1 };
+                waiting.push(below(right, 1));
+                waiting.push(below(left, 0));
                 Child { first: index, count: 0 }
             }
         };
@@ -95,64 +101,27 @@ fn lay_out_part(entries: &Entries, shape: Option<&Bvh2>, whole: Part) -> Tree {
 }
 
 /// Opens a part: a leaf's triangles are appended, an inner part becomes two.
-fn open(
-    entries: &Entries,
-    shape: Option<&Bvh2>,
-    part: Part,
-    triangles: &mut Vec<LeafTriangle>,
-) -> Opened {
-    let mut part = part;
-    loop {
-        part = match (part, shape) {
-            (Part::Built(index), Some(shape)) => {
-                let node = &shape.nodes[index as usize];
-                if !node.is_leaf() {
-                    return Opened::Inner(
-                        Part::Built(node.first_index),
-                        Part::Built(node.first_index + 1),
-                    );
-                }
-                Part::Items(node.first_index..node.first_index + node.prim_count)
+fn open(entries: &Entries, shape: &Bvh2, part: Part, triangles: &mut Vec<LeafTriangle>) -> Opened {
+    let range = match part {
+        Part::Built(index) => {
+            let node = &shape.nodes[index as usize];
+            if !node.is_leaf() {
+                let left = node.first_index;
+                return Opened::Inner(Part::Built(left), Part::Built(left + 1));
             }
-            (Part::Items(range), Some(shape)) => {
-                let indices = &shape.primitive_indices[range.start as usize..range.end as usize];
-                let items = indices.iter().map(|&item| entries.items[item as usize].clone());
-                if let [single] = indices {
-                    Part::Entries(entries.items[*single as usize].clone())
-                } else if items.clone().map(|item| item.len()).sum::<usize>() <= MERGED_LEAF_SIZE {
-                    return Opened::Leaf(append(entries, items, triangles));
-                } else {
-                    let (left, right) = halves(range);
-                    return Opened::Inner(Part::Items(left), Part::Items(right));
-                }
-            }
-            (Part::Entries(range), _) if range.len() > LEAF_SIZE => {
-                let (left, right) = halves(range);
-                return Opened::Inner(Part::Entries(left), Part::Entries(right));
-            }
-            (Part::Entries(range), _) => {
-                return Opened::Leaf(append(entries, std::iter::once(range), triangles));
-            }
-            (Part::Built(_) | Part::Items(_), None) => unreachable!("balanced trees have no shape"),
-        };
+            // The presets make leaves of one item.
+            let item = shape.primitive_indices[node.first_index as usize];
+            entries.items[item as usize].clone()
+        }
+        Part::Entries(range) => range,
+    };
+    if range.len() > LEAF_SIZE {
+        let middle = range.start + (range.end - range.start) / 2;
+        return Opened::Inner(Part::Entries(range.start..middle), Part::Entries(middle..range.end));
     }
-}
-
-fn halves(range: Range<u32>) -> (Range<u32>, Range<u32>) {
-    let middle = range.start + (range.end - range.start) / 2;
-    (range.start..middle, middle..range.end)
-}
-
-fn append(
-    entries: &Entries,
-    ranges: impl Iterator<Item = Range<u32>>,
-    triangles: &mut Vec<LeafTriangle>,
-) -> Child {
-    let first = triangles.len() as u32;
-    for range in ranges {
-        triangles.extend(&entries.triangles[range.start as usize..range.end as usize]);
-    }
-    Child { first, count: triangles.len() as u32 - first }
+    let child = Child { first: triangles.len() as u32, count: range.len() as u32 };
+    triangles.extend(&entries.triangles[range.start as usize..range.end as usize]);
+    Opened::Leaf(child)
 }
 
 /// Computes all boxes. Children come after their parents, so one backward pass is enough.
@@ -160,10 +129,10 @@ fn fit(tree: &mut Tree) {
     for index in (0..tree.nodes.len()).rev() {
         for side in 0..2 {
             let bounds = bounds_of(tree, tree.nodes[index].children[side]);
-            let planes = &mut tree.nodes[index].planes;
-            for axis in 0..3 {
-                planes[0][axis][side] = bounds.lo[axis];
-                planes[1][axis][side] = bounds.hi[axis];
+            for (planes, face) in tree.nodes[index].planes.iter_mut().zip([bounds.lo, bounds.hi]) {
+                for (plane, position) in planes.iter_mut().zip(face) {
+                    plane[side] = position;
+                }
             }
         }
     }

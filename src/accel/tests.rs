@@ -16,6 +16,7 @@ fn mesh_of(triangles: &[[[f32; 3]; 3]]) -> TriangleMesh {
 /// Walks the tree: boxes contain what is below them, and every triangle is in one leaf.
 fn check(accelerator: &Accelerator) {
     let tree = &accelerator.tree;
+    assert!(tree.triangles.iter().all(|t| t.copies > 0));
     let mut seen = vec![0; tree.triangles.len()];
     let mut waiting: Vec<(Child, Option<Bounds>)> =
         tree.root.map(|r| (r, None)).into_iter().collect();
@@ -68,7 +69,8 @@ fn h58_identical_triangles_build_fast_and_flat() {
     let mesh = mesh_of(&triangles);
     let start = Instant::now();
     let accelerator = Accelerator::build(&mesh, BuildPreset::Medium);
-    assert!(start.elapsed().as_secs_f64() < 1.0, "{:?}", start.elapsed());
+    // About 0.3 s on an idle machine; clustering them one by one would take hours.
+    assert!(start.elapsed().as_secs_f64() < 10.0, "{:?}", start.elapsed());
     assert!(accelerator.depth() <= 64);
     assert_eq!(accelerator.tree.triangles.len(), 1, "one test per ray");
     assert_eq!(accelerator.tree.triangles[0].copies, 1_000_000);
@@ -115,7 +117,7 @@ fn regular_grids_are_not_quadratic() {
             let start = Instant::now();
             let accelerator = Accelerator::build(&mesh, BuildPreset::Medium);
             // 60 000 passes over 60 000 boxes would take minutes; a build takes about 0.1 s.
-            assert!(start.elapsed().as_secs_f64() < 2.0, "{:?}", start.elapsed());
+            assert!(start.elapsed().as_secs_f64() < 10.0, "{:?}", start.elapsed());
             assert!(accelerator.depth() <= 64, "depth {}", accelerator.depth());
             check(&accelerator);
         }
@@ -216,4 +218,26 @@ fn h56_corner_rays_meet_their_box() {
         met += u32::from(visited);
     }
     assert_eq!(met, 100_000);
+}
+
+/// H50: a ray in the plane of a box's face meets the box, whichever face and whichever zero.
+#[test]
+fn h50_slabs_are_closed() {
+    for (x, zero) in [(-1.0, 0.0), (-1.0, -0.0), (0.0, 0.0), (0.0, -0.0_f64)] {
+        let beside = corner_at([x, 0.0, 5.0], 1.0);
+        let accelerator = Accelerator::build(
+            &mesh_of(&[beside, corner_at([7.0, 0.0, 5.0], 1.0), corner_at([x, 9.0, 5.0], 1.0)]),
+            BuildPreset::Fastest,
+        );
+        let mut met = Vec::new();
+        accelerator.traverse(
+            &Slabs::new([0.0, 0.25, 0.0], [zero, zero, 1.0]),
+            &mut Pending::default(),
+            |triangles| {
+                met.extend(triangles.iter().map(|t| t.id.get()));
+                f64::INFINITY
+            },
+        );
+        assert_eq!(met, [0], "face at x = 0, direction {zero:?}");
+    }
 }

@@ -47,10 +47,9 @@ impl Slabs {
     fn meet(&self, planes: &[[[f32; 2]; 3]; 2]) -> [[f64; 2]; 2] {
         let mut near = [0.0; 2];
         let mut far = [f64::INFINITY; 2];
-        for axis in 0..3 {
-            let side = self.near_side[axis] & 1;
-            let (first, last) = (planes[side][axis], planes[1 - side][axis]);
-            let (eye, reciprocal) = (self.eye[axis], self.reciprocal[axis]);
+        let rays = self.eye.iter().zip(&self.reciprocal).zip(&self.near_side);
+        for (axis, ((eye, reciprocal), side)) in rays.enumerate() {
+            let (first, last) = (planes[side & 1][axis], planes[1 - (side & 1)][axis]);
             for child in 0..2 {
                 near[child] = larger((f64::from(first[child]) - eye) * reciprocal, near[child]);
                 far[child] = smaller((f64::from(last[child]) - eye) * reciprocal, far[child]);

@@ -144,7 +144,7 @@ fn crude_interval(covering: Covering) -> [f64; 2] {
 /// of V, so D = ΣW loses nothing: 5u. Hence weights W_i/D are good to 9u, a little over 2^-50, and
 /// t = V/D to 3u + 5u + u, u more for multiplying by the padding: 12u on each side with room for
 /// terms in u², a relative width of 24u < 2^-48.
-fn surface(ray: &Ray, v: &Vertices) -> Surface {
+pub(super) fn surface(ray: &Ray, v: &Vertices) -> Surface {
     let a = v.map(|vertex| PairVector::difference(vertex, ray.eye));
     let edges = [
         PairVector::difference(v[2], v[1]),

@@ -100,9 +100,9 @@ fn plane(ray: &Ray, vertices: &Vertices) -> Expansion {
     let n = normal(vertices);
     let a = PairVector::difference(vertices[0], ray.eye);
     let mut sum = Expansion::ZERO;
-    for k in 0..3 {
-        sum.add_scaled(&n[k], a.low[k]);
-        sum.add_scaled(&n[k], a.high[k]);
+    for (n, (low, high)) in n.iter().zip(a.low.into_iter().zip(a.high)) {
+        sum.add_scaled(n, low);
+        sum.add_scaled(n, high);
     }
     sum
 }
@@ -122,8 +122,8 @@ fn cross(a: &PairVector, b: &PairVector) -> [Expansion; 3] {
 
 fn dot(vector: &[Expansion; 3], direction: [f64; 3]) -> Expansion {
     let mut sum = Expansion::ZERO;
-    for k in 0..3 {
-        sum.add_scaled(&vector[k], direction[k]);
+    for (component, d) in vector.iter().zip(direction) {
+        sum.add_scaled(component, d);
     }
     sum
 }

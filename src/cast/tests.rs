@@ -1,5 +1,6 @@
 //! The predicates against integers, on inputs near zero.
 
+use super::candidate;
 use super::coverage;
 use super::exact;
 use super::filter::Relative;
@@ -38,6 +39,25 @@ fn sign_of(value: &IBig) -> i8 {
     }
 }
 
+/// Binary exponent that makes an integer of every f64 in these tests.
+const SCALE: usize = 400;
+
+/// value · 2^400.
+fn scaled(value: f64) -> IBig {
+    if value == 0.0 {
+        return IBig::ZERO;
+    }
+    let bits = value.to_bits();
+    let exponent = ((bits >> 52) & 0x7ff) as i64 - 1075 + SCALE as i64;
+    let mantissa = IBig::from((bits & ((1 << 52) - 1)) | 1 << 52);
+    let shift = usize::try_from(exponent).expect("values in these tests are above 2^-347");
+    if value < 0.0 { -(mantissa << shift) } else { mantissa << shift }
+}
+
+fn magnitude(value: IBig) -> IBig {
+    if value < IBig::ZERO { -value } else { value }
+}
+
 /// W_0, W_1, W_2 for a direction, and V, by integers.
 fn by_integers(ray: &Ray, v: &[[f64; 3]; 3], direction: [f64; 3]) -> ([IBig; 3], IBig) {
     let e = vector(ray.eye);
@@ -53,7 +73,6 @@ fn first_nonzero(signs: [i8; 3]) -> i8 {
     signs.into_iter().find(|&sign| sign != 0).unwrap_or(0)
 }
 
-/// A vertex, aimed: the ray passes within `ulps` of it.
 fn coordinate() -> impl Strategy<Value = f64> {
     prop_oneof![
         (-8_i32..=8).prop_map(f64::from),
@@ -143,17 +162,28 @@ proptest! {
         ];
         for (value, exact) in computed {
             let Some(value) = value else { continue };
-            // |value·2^120 − exact| · 2^53 ≤ 3·|exact|, all times 2^200 to make integers of them.
-            let bits = value.to_bits();
-            let mantissa = IBig::from((bits & ((1 << 52) - 1)) | 1 << 52);
-            let exponent = ((bits >> 52) & 0x7ff) as i32 - 1075 + 120 + 200;
-            prop_assert!(exponent >= 0, "{:e} is too small for this test", value);
-            let magnitude = mantissa << exponent as usize;
-            let scaled = if value < 0.0 { -magnitude } else { magnitude };
-            let wanted = exact << 200;
-            let difference = scaled - &wanted;
-            let absolute = |x: IBig| if x < IBig::ZERO { -x } else { x };
-            prop_assert!(absolute(difference) << 53 <= absolute(wanted) * 3, "{:e}", value);
+            // value·2^120 is the integer's scale.
+            let (value, wanted) = (scaled(value) << 120, exact << SCALE);
+            prop_assert!(magnitude(value - &wanted) << 53 <= magnitude(wanted) * 3);
+        }
+    }
+
+    /// The surface of a covering triangle: bounds of t that hold, weights good to 9u.
+    #[test]
+    fn surfaces_are_certain((ray, v) in aimed()) {
+        if coverage::decide(&ray, &v).0.is_none() {
+            return Ok(());
+        }
+        let (w, plane) = by_integers(&ray, &v, ray.directions[0]);
+        let speed: IBig = w.iter().sum();
+        let sign = IBig::from(sign_of(&speed));
+        let surface = candidate::surface(&ray, &v);
+        let [lo, hi] = surface.t.map(|t| scaled(t) * &speed * &sign);
+        let exact = (plane << SCALE) * &sign;
+        prop_assert!(lo <= exact && exact <= hi);
+        for (weight, w) in surface.barycentric.0.into_iter().zip(w) {
+            let (computed, wanted) = (scaled(weight) * &speed, w << SCALE);
+            prop_assert!(magnitude(computed - &wanted) << 53 <= magnitude(wanted) * 9);
         }
     }
 
