@@ -58,3 +58,6 @@ pub fn rasterize_in_tiles(
     });
     VisibilityBuffer::from_tiles(window, counting, tiles)
 }
+
+#[cfg(test)]
+mod tests;
