@@ -87,7 +87,7 @@ impl Brute {
         }
         let nearest = best.map(|best| {
             let total = dot(&best.normal, &d);
-            let on_edge = best.edges.iter().any(|w| *w == IBig::ZERO);
+            let on_edge = best.edges.contains(&IBig::ZERO);
             let same_depth = covering.iter().any(|other| {
                 other.id != best.id && self.order(other, best, &d).0 == Ordering::Equal
             });
