@@ -19,6 +19,7 @@ mod exact_row;
 mod image_plane;
 mod resolve;
 mod rows;
+mod span;
 mod tile;
 
 use crate::pixel::{Window, for_each_tile};
@@ -58,3 +59,6 @@ pub fn rasterize_in_tiles(
     });
     VisibilityBuffer::from_tiles(window, counting, tiles)
 }
+
+#[cfg(test)]
+mod tests;

@@ -27,7 +27,7 @@ pub(super) struct ExactTriangle {
     /// |X_0·R_0| = det(P)²·|V|.
     volume: IBig,
     /// The vertices are integers in units of 2^`unit`.
-    unit: i64,
+    pub(super) unit: i64,
     /// t = `ray_parameter` / plane row.
     ray_parameter: Scaled,
 }
