@@ -16,6 +16,8 @@ mod layers;
 mod lighting;
 // OBJ and MTL, one test per misreading.
 mod obj;
+// The rasterizer on golden and hard scenes: tile sizes, windows, threads.
+mod raster;
 // Bad scene files: every error with its line and column.
 mod scene_errors;
 // The documented keys are the parser's keys.
