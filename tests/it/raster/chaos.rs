@@ -115,9 +115,18 @@ fn structured_scenes_agree_with_the_definition() {
             }
         }
         triangles.iter_mut().flatten().flatten().for_each(|c| *c = c.clamp(-8.5e37, 8.5e37));
-        let camera = match trial % 4 {
+        let camera = match trial % 5 {
             0 | 1 => grid_camera([0.0, 0.0, -7.0], 8.0),
             2 => grid_camera([0.5, -1.0, -6.0], 4.0),
+            // A mirrored image: det[DX DY D0] < 0.
+            3 => PinholeCamera::exact(
+                Resolution::new(17, 17).unwrap(),
+                [0.0, 1.0, -6.0],
+                [8.5, -8.5, 6.0],
+                [-1.0, 0.0, 0.0],
+                [0.0, 1.0, 0.0],
+            )
+            .unwrap(),
             _ => PinholeCamera::look_at(
                 Resolution::new(13, 11).unwrap(),
                 [1.2, 0.7, -5.3],
