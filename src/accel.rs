@@ -18,8 +18,8 @@ pub(crate) use traverse::{Pending, Slabs};
 use crate::mesh::TriangleMesh;
 use node::{Child, Tree};
 
-/// Deepest tree that is kept as obvhs made it. Good trees over 10⁸ triangles stay below 64; a
-/// deeper one is a chain, and a balanced tree over the spatial order is better.
+/// Deepest tree that is kept as obvhs made it. Meshes and soups of 10⁵ triangles measure 24 to 40;
+/// one deeper than this is a chain, and a balanced tree over the spatial order is better.
 const DEEPEST: usize = 96;
 
 /// A hierarchy over the triangles of one mesh.
