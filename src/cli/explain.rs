@@ -45,7 +45,7 @@ fn text(arguments: &ExplainArguments, scene: &Scene) -> String {
         scene.materials.len(),
         scene.lights.len()
     );
-    text += "\neffect            on   called for by\n";
+    text += "\neffect                on   called for by\n";
     for call in shade::explain(scene) {
         let by = match call.called_by.as_slice() {
             [] => "-".to_owned(),
@@ -54,7 +54,7 @@ fn text(arguments: &ExplainArguments, scene: &Scene) -> String {
             }
             callers => callers.join(", "),
         };
-        text += &format!("{:<17} {:<4} {by}\n", call.effect, if call.on { "yes" } else { "no" });
+        text += &format!("{:<21} {:<4} {by}\n", call.effect, if call.on { "yes" } else { "no" });
     }
     text += &format!("\ndialect    {}\n", scene.switches.dialect);
     if let Some(table) = scene.switches.table().as_object() {

@@ -18,11 +18,15 @@ mod lighting;
 mod obj;
 // The rasterizer on golden and hard scenes: tile sizes, windows, threads.
 mod raster;
+// What the README shows is what the program does.
+mod readme;
 // Bad scene files: every error with its line and column.
 mod scene_errors;
 // The documented keys are the parser's keys.
 mod scene_keys;
 // Good scene files: defaults, camera forms, transforms, materials.
 mod scene_load;
+// The scenes that come with the project.
+mod scenes;
 // Golden scenes and builders that several modules use.
 mod support;
