@@ -1,3 +1,5 @@
+//! Expansions against integers.
+
 use super::*;
 use dashu_int::IBig;
 use proptest::prelude::*;

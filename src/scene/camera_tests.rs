@@ -1,3 +1,5 @@
+//! Exactness of directions, the four forms against each other, and what is refused.
+
 use super::*;
 
 /// How far the lattice may move a direction anywhere in the frame, per component: half a step of

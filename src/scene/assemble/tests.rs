@@ -1,3 +1,5 @@
+//! Parts put together: rounding once, mirrored corners, materials, the limit of 2^126.
+
 use super::*;
 
 fn triangle() -> MeshPart {
