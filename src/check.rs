@@ -8,6 +8,7 @@ mod audit;
 mod blame;
 mod compare;
 pub mod csv;
+pub mod foreign;
 pub mod picture;
 pub mod tolerance;
 

@@ -3,6 +3,7 @@
 //! stdout carries results only; warnings, errors and progress bars go to stderr.
 
 mod arguments;
+mod audit;
 mod check;
 mod explain;
 mod failure;

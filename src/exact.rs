@@ -13,6 +13,9 @@ mod contact;
 mod discard;
 mod interval;
 mod rational;
+mod ties;
+
+pub use ties::TieAnswers;
 
 use crate::mesh::{Barycentric, TriangleId};
 use crate::pixel::Pixel;
@@ -105,6 +108,19 @@ impl<'a> Arbiter<'a> {
         // A total order: it compares t at one and the same moved sample, then ids.
         contacts.sort_by(|a, b| a.order(b, &ray));
         contacts.iter().map(candidate).collect()
+    }
+
+    /// Every answer at a pixel that is right under some tie rule.
+    pub fn tie_answers(&self, pixel: Pixel) -> TieAnswers {
+        let ray = Ray::through(&self.scene.camera, pixel.sample());
+        ties::answers(&self.contacts(&ray), &ray)
+    }
+
+    /// Whether the sample of `pixel` lies exactly on an edge of the triangle, whatever else is there.
+    pub fn is_on_edge(&self, triangle: TriangleId, pixel: Pixel) -> bool {
+        let ray = Ray::through(&self.scene.camera, pixel.sample());
+        Contact::at(&ray, &self.scene.mesh, triangle)
+            .is_some_and(|contact| contact.edge_signs.contains(&0))
     }
 
     /// The triangles that touch the ray, in the order of ids.

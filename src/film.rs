@@ -8,12 +8,14 @@ mod error;
 mod exr;
 mod npy;
 mod png;
+mod read;
 mod write;
 
 pub use self::error::FilmError;
 pub use self::exr::{decode_exr, encode_exr};
 pub use self::npy::encode_npy_ids;
 pub use self::png::{ClipCount, encode_picture, encode_png};
+pub use self::read::{NumberPlane, Numbers, PackedOrder, load_numbers};
 pub use self::write::{
     Format, check_target, check_writable, format_of, load_exr, save, write_atomic,
 };

@@ -11,8 +11,8 @@ use image::{Rgb, RgbImage};
 use std::collections::HashMap;
 
 /// Columns of dark grey between two panels.
-const GAP: u32 = 4;
-const GAP_COLOR: Rgb<u8> = Rgb([48, 48, 48]);
+pub(super) const GAP: u32 = 4;
+pub(super) const GAP_COLOR: Rgb<u8> = Rgb([48, 48, 48]);
 const NOTHING_COLOR: Rgb<u8> = Rgb([0, 0, 0]);
 
 /// The colour in which a pixel of that blame is marked.
@@ -57,7 +57,7 @@ pub fn difference_picture(differences: &[Judged], answers: &[Answered; 2]) -> Rg
 
 /// A colour of middle brightness per id, far from that of its neighbours: the bits of the id times
 /// the golden ratio (Knuth's multiplicative hash).
-fn id_color(id: Option<TriangleId>) -> Rgb<u8> {
+pub(super) fn id_color(id: Option<TriangleId>) -> Rgb<u8> {
     match id {
         None => NOTHING_COLOR,
         Some(id) => {

@@ -2,6 +2,8 @@
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
+use truecast::check::foreign::depth::DEPTH_TOLERANCE_RELATIVE;
+use truecast::check::foreign::ids::NOT_FINITE;
 use truecast::pixel::{MAX_SIDE, Resolution};
 
 /// Casts one ray per pixel at a scene of triangle meshes, and proves which triangle is visible.
@@ -67,6 +69,8 @@ pub(super) struct CheckArguments {
     /// Scene files (TOML)
     #[arg(required = true)]
     pub(super) scenes: Vec<PathBuf>,
+    #[command(flatten)]
+    pub(super) foreign: ForeignArguments,
     /// Write the picture expected | difference | actual (PNG)
     #[arg(long, value_name = "FILE.png")]
     pub(super) diff: Option<PathBuf>,
@@ -91,6 +95,49 @@ pub(super) struct CheckArguments {
     /// No progress bar, no summary; errors and exit status only
     #[arg(long)]
     pub(super) quiet: bool,
+}
+
+#[derive(Debug, Args)]
+#[command(next_help_heading = "Another program's picture, held against the exact answer")]
+pub(super) struct ForeignArguments {
+    /// Its triangle ids: .npy, .exr (channel `id.prim`, or the only UINT one) or .png
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["pixel", "audit"])]
+    pub(super) ids: Option<PathBuf>,
+    /// Its depths: .exr or .npy; along the view axis, or ray parameters if the channel is named `t`
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["pixel", "audit"])]
+    pub(super) depth: Option<PathBuf>,
+    /// EXR channel of the ids
+    #[arg(long, value_name = "NAME", requires = "ids")]
+    pub(super) ids_channel: Option<String>,
+    /// EXR channel of the depths
+    #[arg(long, value_name = "NAME", requires = "depth")]
+    pub(super) depth_channel: Option<String>,
+    /// Number of its first triangle; with 1, 0 means nothing
+    #[arg(long, value_name = "0|1", requires = "ids", default_value_t = 0,
+          value_parser = clap::value_parser!(i64).range(0..=1))]
+    pub(super) id_base: i64,
+    /// Its mark of nothing, a whole number or `nan` [default: 4294967295]
+    #[arg(long, value_name = "VALUE", requires = "ids", value_parser = parse_background,
+          allow_negative_numbers = true)]
+    pub(super) background: Option<i64>,
+    /// Its rows run from the bottom up
+    #[arg(long)]
+    pub(super) flip_y: bool,
+    /// Which byte of a PNG pixel is the high one of the id
+    #[arg(long, value_enum, requires = "ids", default_value_t = PackedWord::Rgb)]
+    pub(super) png_order: PackedWord,
+    /// Largest relative error of a depth that is no error
+    #[arg(long, value_name = "R", requires = "depth", value_parser = parse_tolerance,
+          default_value_t = DEPTH_TOLERANCE_RELATIVE)]
+    pub(super) depth_tolerance: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum PackedWord {
+    /// 65536 R + 256 G + B
+    Rgb,
+    /// 65536 B + 256 G + R
+    Bgr,
 }
 
 #[derive(Debug, Args)]
@@ -153,4 +200,24 @@ fn parse_numbers<const N: usize>(text: &str) -> Option<[u32; N]> {
     let numbers: Option<Vec<u32>> =
         text.split(',').map(|number| number.trim().parse().ok()).collect();
     numbers?.try_into().ok()
+}
+
+fn parse_background(text: &str) -> Result<i64, String> {
+    match text.trim() {
+        nan if nan.eq_ignore_ascii_case("nan") => Ok(NOT_FINITE),
+        number => {
+            // As u64 too, so that 2^64 - 1 can be written as it is; it is read as -1.
+            let whole = number.parse::<i64>().ok();
+            whole
+                .or_else(|| number.parse::<u64>().ok().map(|word| word as i64))
+                .ok_or_else(|| "expected a whole number or nan".to_owned())
+        }
+    }
+}
+
+fn parse_tolerance(text: &str) -> Result<f64, String> {
+    let tolerance = text.trim().parse::<f64>().ok();
+    tolerance
+        .filter(|tolerance| tolerance.is_finite() && *tolerance >= 0.0)
+        .ok_or_else(|| "expected a number that is not negative, for example 1e-6".to_owned())
 }

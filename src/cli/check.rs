@@ -4,7 +4,7 @@ use super::arguments::CheckArguments;
 use super::failure::Failure;
 use super::output::{self, Writing};
 use super::progress::Bar;
-use super::{DIFFERENCE, OK, SCENE, on_threads};
+use super::{DIFFERENCE, OK, SCENE, audit, on_threads};
 use serde_json::{Value, json};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -28,6 +28,9 @@ struct Checked<'a> {
 }
 
 pub(super) fn run(arguments: &CheckArguments, writing: &Writing) -> Result<u8, Failure> {
+    if arguments.foreign.ids.is_some() || arguments.foreign.depth.is_some() {
+        return audit::run(arguments, writing);
+    }
     for path in arguments.diff.iter().chain(&arguments.csv) {
         output::check_target(path)?;
     }

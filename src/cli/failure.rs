@@ -15,7 +15,9 @@ pub(super) enum Failure {
     Usage(String),
     /// The scene is wrong or cannot be read.
     Scene(SceneErrors),
-    /// A file could not be written.
+    /// A file does not fit the scene.
+    Input(String),
+    /// A file could not be written or read.
     Film(FilmError),
 }
 
@@ -29,7 +31,7 @@ impl Failure {
         match self {
             Self::Usage(_) => USAGE,
             Self::Scene(errors) if errors.0.iter().all(|e| e.fault == Fault::Reading) => READ_WRITE,
-            Self::Scene(_) => SCENE,
+            Self::Scene(_) | Self::Input(_) => SCENE,
             Self::Film(_) => READ_WRITE,
         }
     }
@@ -37,7 +39,7 @@ impl Failure {
     /// Prints it to stderr.
     pub(super) fn print(&self) {
         match self {
-            Self::Usage(message) => anstream::eprintln!("error: {message}"),
+            Self::Usage(message) | Self::Input(message) => anstream::eprintln!("error: {message}"),
             Self::Film(error) => anstream::eprintln!("error: {error}"),
             Self::Scene(errors) => errors.0.iter().for_each(print_scene_error),
         }

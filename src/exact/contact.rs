@@ -58,6 +58,8 @@ pub(super) struct Contact {
     pub(super) edge_signs: [i8; 3],
     /// sgn*(W_i) · sgn V.
     pub(super) moved_signs: [i8; 3],
+    /// sgn V · c_i.
+    planes: [Vector; 3],
     /// |V|.
     volume: Relaxed,
     /// sgn V · n.
@@ -91,7 +93,17 @@ impl Contact {
         let moved_signs = planes.each_ref().map(|plane| ray.moved_sign(plane));
         let normal = add(&add(&planes[0], &planes[1]), &planes[2]);
         let divisor = &weights[0] + &weights[1] + &weights[2];
-        Some(Self { triangle, facing, edge_signs, moved_signs, volume, normal, weights, divisor })
+        Some(Self {
+            triangle,
+            facing,
+            edge_signs,
+            moved_signs,
+            planes,
+            volume,
+            normal,
+            weights,
+            divisor,
+        })
     }
 
     /// Whether the triangle covers the sample: the moved sample is inside all three edges.
@@ -105,6 +117,20 @@ impl Contact {
         let difference =
             subtract(&scale(&other.normal, &self.volume), &scale(&self.normal, &other.volume));
         ray.moved_sign(&difference).cmp(&0).then(self.triangle.cmp(&other.triangle))
+    }
+
+    /// For each edge through the sample, the derivative of sgn V · W_i to the right and down: which
+    /// moves go inside. Never (0, 0), which would take c_i = 0 and V = 0.
+    pub(super) fn boundary(&self, ray: &Ray) -> Vec<[Relaxed; 2]> {
+        (0..3)
+            .filter(|&i| self.edge_signs[i] == 0)
+            .map(|i| [dot(&self.planes[i], &ray.dx), dot(&self.planes[i], &ray.dy)])
+            .collect()
+    }
+
+    /// Which t is smaller at the sample itself.
+    pub(super) fn depth_order(&self, other: &Self) -> Ordering {
+        (&self.volume * &other.divisor).cmp(&(&other.volume * &self.divisor))
     }
 
     /// Whether t is exactly the same.

@@ -1,12 +1,13 @@
 //! 8-bit sRGB PNG: the picture as a screen shows it.
 //!
-//! Clamps to [0, 1] and counts what it clamped; no tone mapping, no alpha, no dithering.
+//! Others' id pictures are read here too. Clamps to [0, 1] and counts what it clamped; no tone mapping, no alpha, no dithering.
 
 use ::png::{BitDepth, ColorType, DeflateCompression, Encoder, Filter, SrgbRenderingIntent};
 use rayon::prelude::*;
 
 use super::check::check_film;
-use super::{Film, FilmError, Samples};
+use super::read::full_plane;
+use super::{Film, FilmError, NumberPlane, Numbers, PackedOrder, Samples};
 use crate::color::srgb_code;
 
 /// How many pixels the clamp to [0, 1] changed. A pixel may count in both.
@@ -116,4 +117,34 @@ fn compress(width: u32, height: u32, codes: &[u8]) -> Result<Vec<u8>, FilmError>
         })
         .map_err(|error| FilmError::Encode { format: "PNG", reason: error.to_string() })?;
     Ok(bytes)
+}
+
+/// Ids from a PNG: 8-bit RGB packed to 24 bits (alpha is ignored), or 8- or 16-bit grey as it is.
+pub(super) fn decode_png_ids(bytes: &[u8], order: PackedOrder) -> Result<NumberPlane, String> {
+    let decoder = ::png::Decoder::new(std::io::Cursor::new(bytes));
+    let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
+    let size = reader.output_buffer_size().ok_or("its size does not fit the memory")?;
+    let mut codes = vec![0; size];
+    let frame = reader.next_frame(&mut codes).map_err(|error| error.to_string())?;
+    codes.truncate(frame.buffer_size());
+    let packed = |pixel: &[u8]| {
+        let [r, g, b] = [pixel[0], pixel[1], pixel[2]].map(i64::from);
+        match order {
+            PackedOrder::RedFirst => r << 16 | g << 8 | b,
+            PackedOrder::BlueFirst => b << 16 | g << 8 | r,
+        }
+    };
+    let ids = match (frame.color_type, frame.bit_depth) {
+        (ColorType::Rgb, BitDepth::Eight) => codes.chunks_exact(3).map(packed).collect(),
+        (ColorType::Rgba, BitDepth::Eight) => codes.chunks_exact(4).map(packed).collect(),
+        (ColorType::Grayscale, BitDepth::Eight) => codes.iter().map(|&c| i64::from(c)).collect(),
+        (ColorType::Grayscale, BitDepth::Sixteen) => {
+            codes.chunks_exact(2).map(|c| i64::from(c[0]) << 8 | i64::from(c[1])).collect()
+        }
+        (kind, depth) => {
+            let found = format!("{kind:?} of {depth:?} bits");
+            return Err(format!("it is {found}; ids are 8-bit RGB, or 8- or 16-bit grey"));
+        }
+    };
+    full_plane(u64::from(frame.width), u64::from(frame.height), Numbers::Whole(ids))
 }
