@@ -5,6 +5,7 @@
 mod arguments;
 mod check;
 mod explain;
+mod export;
 mod failure;
 mod output;
 mod pixel;
@@ -44,6 +45,7 @@ pub(crate) fn run() -> ExitCode {
     let status = match arguments.command {
         Command::Render(arguments) => render::run(&arguments, &writing),
         Command::Check(arguments) => check::run(&arguments, &writing),
+        Command::Export(arguments) => export::run(&arguments, &writing),
         Command::Pixel(arguments) => pixel::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
     };
