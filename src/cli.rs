@@ -6,6 +6,7 @@ mod arguments;
 mod audit;
 mod check;
 mod explain;
+mod export;
 mod failure;
 mod output;
 mod pixel;
@@ -45,6 +46,7 @@ pub(crate) fn run() -> ExitCode {
     let status = match arguments.command {
         Command::Render(arguments) => render::run(&arguments, &writing),
         Command::Check(arguments) => check::run(&arguments, &writing),
+        Command::Export(arguments) => export::run(&arguments, &writing),
         Command::Pixel(arguments) => pixel::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
     };

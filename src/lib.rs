@@ -33,7 +33,7 @@
 //!
 //! | floor | modules | what they hold |
 //! |---|---|---|
-//! | check | [`check`] | both paths compared, the arbiter's word, blame, difference pictures |
+//! | check | [`check`], [`export`] | both paths compared, the arbiter's word, blame, difference pictures; the oracle bundle |
 //! | frame | [`render`] | scene and options in, film out: the one place that knows both paths and shading |
 //! | shading | [`shade`] | effects, the equation, surface points |
 //! | answers | [`mod@cast`], [`raster`], [`exact`] | three answerers that do not know each other |
@@ -104,6 +104,7 @@ pub mod cast;
 pub mod check;
 pub mod color;
 pub mod exact;
+pub mod export;
 pub mod film;
 pub mod mesh;
 pub mod pixel;

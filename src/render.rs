@@ -6,6 +6,7 @@
 mod describe;
 mod develop;
 mod planes;
+pub mod visible;
 
 pub use describe::describe;
 pub use develop::develop;
@@ -20,6 +21,7 @@ use crate::scene::Scene;
 use crate::shade::{Effects, Notes, shade};
 use crate::visibility::{Counting, LevelCounts, VisibilityBuffer};
 use std::time::{Duration, Instant};
+use visible::{Listing, VisibleTriangle, list_visible};
 
 /// Which of the two independent paths answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -42,6 +44,8 @@ pub struct RenderOptions {
     pub planes: PlaneGroups,
     /// BVH build preset of the cast path. It changes time, never a bit of the film.
     pub preset: BuildPreset,
+    /// Whether the visible triangles are listed, and how finely they are looked for.
+    pub listing: Option<Listing>,
 }
 
 impl Default for RenderOptions {
@@ -51,6 +55,7 @@ impl Default for RenderOptions {
             window: None,
             planes: PlaneGroups::standard(),
             preset: BuildPreset::Medium,
+            listing: None,
         }
     }
 }
@@ -79,6 +84,8 @@ pub struct Frame {
     pub levels: LevelCounts,
     /// What shading has to report.
     pub notes: Notes,
+    /// The visible triangles by id, if they were asked for.
+    pub visible: Option<Vec<VisibleTriangle>>,
     /// Where the time went.
     pub times: FrameTimes,
 }
@@ -113,17 +120,17 @@ pub fn render(scene: &Scene, options: &RenderOptions, progress: &dyn Progress) -
     let shading = started.elapsed();
     let started = Instant::now();
     let film = develop(scene, &seen.buffer, &shaded.radiance, &options.planes);
+    let developing = started.elapsed();
+    let visible = options.listing.map(|listing| {
+        list_visible(scene, &seen.buffer, listing, options.path, options.preset, progress)
+    });
     Frame {
         film,
+        visible,
         covered_pixels: seen.buffer.covered_pixels(),
         levels: seen.buffer.levels,
         notes: shaded.notes,
-        times: FrameTimes {
-            build: seen.build,
-            visibility: seen.visibility,
-            shading,
-            developing: started.elapsed(),
-        },
+        times: FrameTimes { build: seen.build, visibility: seen.visibility, shading, developing },
     }
 }
 

@@ -2,16 +2,19 @@
 
 use super::blame::{Judged, visible_of};
 use super::compare::{Answered, cover_at};
+use crate::render::visible::csv_field;
+use crate::scene::Scene;
 use crate::visibility::{Cover, Visible};
 use std::fmt::Write;
 
-/// Column names, in order. Ids are empty where nothing is visible.
-const HEADER: &str = "x,y,kind,blame,found_by,cast_id,raster_id,exact_id,cast_facing,raster_facing,\
+/// Column names, in order. Ids are empty where nothing is visible; a source is `file.obj:line`.
+const HEADER: &str = "x,y,kind,blame,found_by,cast_id,raster_id,exact_id,\
+cast_source,raster_source,exact_source,cast_facing,raster_facing,\
 exact_facing,cast_cover,raster_cover,exact_cover,cast_signed,raster_signed,exact_signed,cast_t,\
 raster_t,exact_t,cast_r,cast_g,cast_b,raster_r,raster_g,raster_b";
 
 /// Writes a header and one line per difference.
-pub fn to_csv(differences: &[Judged], answers: &[Answered; 2]) -> String {
+pub fn to_csv(scene: &Scene, differences: &[Judged], answers: &[Answered; 2]) -> String {
     let mut text = String::from(HEADER);
     text.push('\n');
     for judged in differences {
@@ -32,6 +35,9 @@ pub fn to_csv(differences: &[Judged], answers: &[Answered; 2]) -> String {
             judged.blame.name()
         );
         columns(&mut text, &visible, |visible| visible.triangle.get().to_string());
+        columns(&mut text, &visible, |visible| {
+            csv_field(&scene.describe_source(visible.triangle)).into_owned()
+        });
         columns(&mut text, &visible, |visible| visible.facing.sign().to_string());
         cover.iter().for_each(|cover| text.push_str(&format!(",{}", cover.crossed)));
         cover.iter().for_each(|cover| text.push_str(&format!(",{}", cover.signed)));

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use truecast::check::foreign::depth::DEPTH_TOLERANCE_RELATIVE;
 use truecast::check::foreign::ids::NOT_FINITE;
 use truecast::pixel::{MAX_SIDE, Resolution};
+use truecast::render::visible::SubsampleGrid;
 
 /// Casts one ray per pixel at a scene of triangle meshes, and proves which triangle is visible.
 #[derive(Debug, Parser)]
@@ -23,6 +24,8 @@ pub(super) enum Command {
     Render(RenderArguments),
     /// Compare both visibility paths pixel by pixel; exact arithmetic decides every difference
     Check(CheckArguments),
+    /// Write the oracle bundle: triangles, camera and the exact answer of every pixel, for other programs
+    Export(ExportArguments),
     /// Explain one pixel: every candidate, the winner, every light term
     Pixel(PixelArguments),
     /// Say which effects the scene calls for, and its resolved camera and switches
@@ -53,6 +56,13 @@ pub(super) struct RenderArguments {
     /// Render only columns X0..X1 and rows Y0..Y1 (X1 and Y1 excluded)
     #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = parse_crop)]
     pub(super) crop: Option<[u32; 4]>,
+    /// List the visible triangles: id, mesh, file and line, number of pixels, first pixel
+    #[arg(long, value_name = "LIST.csv")]
+    pub(super) visible: Option<PathBuf>,
+    /// Also look at NxN sub-samples in every pixel (N is 2, 4, 8 or 16), and list triangles that no
+    /// pixel centre sees; even these are not all: a sliver may lie between sub-samples
+    #[arg(long, value_name = "N", requires = "visible", value_parser = parse_subpixel)]
+    pub(super) subpixel: Option<SubsampleGrid>,
     /// Number of threads; 0 is one per core
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) threads: usize,
@@ -141,6 +151,27 @@ pub(super) enum PackedWord {
 }
 
 #[derive(Debug, Args)]
+pub(super) struct ExportArguments {
+    /// Scene file (TOML)
+    pub(super) scene: PathBuf,
+    /// Folder to write; a former bundle is replaced, any other folder must be empty
+    #[arg(short, long = "output", value_name = "DIR")]
+    pub(super) output: PathBuf,
+    /// Export at this size instead of the scene's
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub(super) size: Option<Resolution>,
+    /// Number of threads; 0 is one per core
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(super) threads: usize,
+    /// Print one JSON document on stdout
+    #[arg(long)]
+    pub(super) json: bool,
+    /// No progress bar, no summary; errors only
+    #[arg(long)]
+    pub(super) quiet: bool,
+}
+
+#[derive(Debug, Args)]
 pub(super) struct PixelArguments {
     /// Scene file (TOML)
     pub(super) scene: PathBuf,
@@ -186,6 +217,11 @@ fn parse_size(text: &str) -> Result<Resolution, String> {
     let (width, height) = text.split_once(['x', 'X']).ok_or_else(wanted)?;
     let [width, height] = [width, height].map(|side| side.trim().parse::<u32>().ok());
     width.zip(height).and_then(|(width, height)| Resolution::new(width, height)).ok_or_else(wanted)
+}
+
+fn parse_subpixel(text: &str) -> Result<SubsampleGrid, String> {
+    let side = text.trim().parse().ok();
+    side.and_then(SubsampleGrid::new).ok_or_else(|| "expected 2, 4, 8 or 16".to_owned())
 }
 
 fn parse_crop(text: &str) -> Result<[u32; 4], String> {

@@ -12,6 +12,7 @@ use truecast::check::csv::to_csv;
 use truecast::check::picture::difference_picture;
 use truecast::check::{Blame, BothAnswers, CheckOptions, Judged, Kind, Outcome, Report, check};
 use truecast::film::encode_picture;
+use truecast::mesh::TriangleId;
 use truecast::pixel::Window;
 use truecast::scene::{Overrides, Scene};
 
@@ -45,7 +46,7 @@ pub(super) fn run(arguments: &CheckArguments, writing: &Writing) -> Result<u8, F
         }
         if let Some(csv) = &arguments.csv {
             let target = target_for(csv, path, arguments.scenes.len());
-            let text = to_csv(&checked.report.differences, &checked.answers);
+            let text = to_csv(&checked.scene, &checked.report.differences, &checked.answers);
             output::save(writing, &target, text.as_bytes())?;
         }
         if arguments.json {
@@ -187,10 +188,12 @@ fn differences_by_kind(report: &Report) -> String {
 
 fn one_line(checked: &Checked<'_>, judged: &Judged) -> String {
     let pixel = judged.difference.pixel;
-    let seen =
-        |path: usize| checked.answers[path].buffer.at(pixel).map(|visible| visible.triangle.get());
-    let exact = judged.exact.visible.as_ref().map(|surface| surface.triangle.get());
-    let name = |id: Option<u32>| id.map_or_else(|| "none".to_owned(), |id| id.to_string());
+    let seen = |path: usize| checked.answers[path].buffer.at(pixel).map(|visible| visible.triangle);
+    let exact = judged.exact.visible.as_ref().map(|surface| surface.triangle);
+    let name = |id: Option<TriangleId>| match id {
+        None => "none".to_owned(),
+        Some(id) => format!("{} ({})", id.get(), checked.scene.describe_source(id)),
+    };
     format!(
         "  ({}, {}) {}: cast {}, raster {}, exact {}; wrong: {}; see: truecast check {} --pixel {},{}\n",
         pixel.x,

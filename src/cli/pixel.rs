@@ -109,8 +109,9 @@ fn shading_text(scene: &Scene, visible: &Visible, terms: &Terms) -> String {
     let surface = &terms.surface;
     let (_, material) = scene.material_of(visible.triangle);
     let mut text = format!(
-        "visible: triangle {}, weights {:?}, t {:?}{}\n",
+        "visible: triangle {} ({}), weights {:?}, t {:?}{}\n",
         visible.triangle.get(),
+        scene.describe_source(visible.triangle),
         visible.barycentric.0,
         visible.t(),
         if visible.tie { ", decided by the tie rule" } else { "" }

@@ -12,6 +12,7 @@ use truecast::film::{
     ClipCount, Film, FilmError, Format, encode_exr, encode_npy_ids, encode_png, format_of,
 };
 use truecast::pixel::{Resolution, Window};
+use truecast::render::visible::{Listing, SubsampleGrid, to_csv};
 use truecast::render::{Frame, PlaneGroup, PlaneGroups, RenderOptions, VisibilityPath, render};
 use truecast::scene::{Overrides, Scene};
 use truecast::shade::Notes;
@@ -29,6 +30,9 @@ struct Written {
 pub(super) fn run(arguments: &RenderArguments, writing: &Writing) -> Result<u8, Failure> {
     let targets = targets(arguments)?;
     let planes = planes(arguments, &targets)?;
+    if let Some(list) = &arguments.visible {
+        output::check_target(list)?;
+    }
     let bar = Bar::new(arguments.quiet);
     let started = Instant::now();
     let scene = load(arguments)?;
@@ -43,13 +47,22 @@ pub(super) fn run(arguments: &RenderArguments, writing: &Writing) -> Result<u8, 
         },
         window: window(arguments, scene.camera.resolution())?,
         planes,
+        listing: arguments
+            .visible
+            .as_ref()
+            .map(|_| arguments.subpixel.map_or(Listing::Centres, Listing::Subsamples)),
         ..RenderOptions::default()
     };
     let (frame, written, write_time) = on_threads(arguments.threads, || {
         let frame = render(&scene, &options, &bar);
         bar.finish();
         let started = Instant::now();
-        let written = write_all(&frame, &targets, writing)?;
+        let mut written = write_all(&frame, &targets, writing)?;
+        if let (Some(path), Some(list)) = (&arguments.visible, &frame.visible) {
+            let text = to_csv(&scene, list);
+            output::save(writing, path, text.as_bytes())?;
+            written.push(Written { path: path.clone(), bytes: text.len(), clipped: None });
+        }
         Ok::<_, Failure>((frame, written, started.elapsed()))
     })??;
     let total = started.elapsed();
@@ -57,7 +70,7 @@ pub(super) fn run(arguments: &RenderArguments, writing: &Writing) -> Result<u8, 
         let times = [("load", load_time), ("write", write_time), ("total", total)];
         output::print_json(&document(arguments, &scene, &frame, &written, &times));
     } else if !arguments.quiet {
-        output::print(&summary(&scene, &frame, &written, total));
+        output::print(&summary(arguments.subpixel, &scene, &frame, &written, total));
     }
     Ok(OK)
 }
@@ -154,6 +167,14 @@ fn encode(film: &Film, format: Format) -> Result<(Vec<u8>, Option<ClipCount>), F
     })
 }
 
+/// The numbers of the list of visible triangles: how many pixel centres see, how many only
+/// sub-samples do.
+fn count_visible(frame: &Frame) -> Option<(usize, usize)> {
+    let list = frame.visible.as_ref()?;
+    let at_centres = list.iter().filter(|seen| seen.pixels > 0).count();
+    Some((at_centres, list.len() - at_centres))
+}
+
 /// What shading has to report: count, key, words.
 fn notes(notes: &Notes) -> [(u64, &'static str, &'static str); 6] {
     [
@@ -186,7 +207,13 @@ fn milliseconds(time: Duration) -> f64 {
     (time.as_secs_f64() * 1e6).round() / 1e3
 }
 
-fn summary(scene: &Scene, frame: &Frame, written: &[Written], total: Duration) -> String {
+fn summary(
+    subpixel: Option<SubsampleGrid>,
+    scene: &Scene,
+    frame: &Frame,
+    written: &[Written],
+    total: Duration,
+) -> String {
     let mut text = String::new();
     let pixels = frame.film.window.len();
     for file in written {
@@ -205,6 +232,16 @@ fn summary(scene: &Scene, frame: &Frame, written: &[Written], total: Duration) -
         100.0 * frame.covered_pixels as f64 / pixels as f64,
         milliseconds(total),
     );
+    if let Some((at_centres, missed)) = count_visible(frame) {
+        text += &format!("{at_centres} triangles are seen by pixel centres");
+        text += &match subpixel {
+            None => "\n".to_owned(),
+            Some(grid) => format!(
+                "; at least {missed} more are missed by them and seen by {n}x{n} sub-samples\n",
+                n = grid.side()
+            ),
+        };
+    }
     for (count, _, what) in notes(&frame.notes) {
         if count > 0 {
             text += &format!("{count} {what}\n");
@@ -254,6 +291,11 @@ fn document(
         "window": [window.x0(), window.y0(), window.x1(), window.y1()],
         "triangles": scene.mesh.len(),
         "covered_pixels": frame.covered_pixels,
+        "visible": count_visible(frame).map(|(at_centres, missed)| json!({
+            "triangles": at_centres,
+            "subpixel": arguments.subpixel.map(SubsampleGrid::side),
+            "missed_by_centres": arguments.subpixel.map(|_| missed),
+        })),
         "decisions": {
             "f32": frame.levels.single,
             "f64": frame.levels.double,

@@ -209,6 +209,23 @@ impl PinholeCamera {
         Self::exact(resolution, flush_noise(eye), d0, dx, dy)
     }
 
+    /// This camera with every pixel's sample moved by `steps` (columns, rows) of 1/256 pixel, each
+    /// −128…128: its sample of pixel (i, j) is the point (i + ½ + a, j + ½ + b) of this camera's
+    /// image plane, a = `steps[0]`/256, b = `steps[1]`/256. The same E and nothing rounded.
+    ///
+    /// D0 + a·DX + b·DY is a sum of multiples of q0 of magnitude at most |D0| + |DX|/2 + |DY|/2 ≤
+    /// M ≤ 2^53·q0, so it is an f64; every moved sample lies inside the frame, so its direction is
+    /// one of the exact ones of [`super::lattice`].
+    ///
+    /// # Panics
+    /// When a step is outside −128…128: the sample would leave its pixel.
+    pub fn shifted(&self, steps: [i32; 2]) -> Self {
+        assert!(steps.iter().all(|step| step.abs() <= 128), "{steps:?} leaves the pixel");
+        let [a, b] = steps.map(|step| f64::from(step) / f64::from(1 << lattice::SUBPIXEL_BITS));
+        let d0 = std::array::from_fn(|k| self.d0[k] + a * self.dx[k] + b * self.dy[k]);
+        Self { d0, ..self.clone() }
+    }
+
     /// Size of the full frame.
     pub fn resolution(&self) -> Resolution {
         self.resolution

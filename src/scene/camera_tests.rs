@@ -176,6 +176,37 @@ fn opencv_and_gl_agree_with_the_look_at_camera() {
 }
 
 #[test]
+fn a_shifted_camera_looks_through_the_subpixel_grid() {
+    // A frame whose extent is just below a power of two: putting the shifted numbers on a lattice
+    // of their own would take the next one and move the image.
+    let d0 = [-1000.0 + 1.0 / 4096.0, -3.0, 7.0 + 1.0 / 1024.0];
+    let camera =
+        PinholeCamera::exact(frame(24, 24), [0.0; 3], d0, [1.0, 0.0, 0.0], [0.0, 1.0, 0.0])
+            .unwrap();
+    let own =
+        lattice::put_on_lattice(frame(24, 24), [[-1000.5, -3.5, 7.0], camera.dx(), camera.dy()]);
+    assert!(own.unwrap().exponent > camera.exponent(), "the case is the hard one");
+    let look = PinholeCamera::look_at(
+        frame(31, 17),
+        [1.0, 2.0, 5.0],
+        [0.3, 0.5, -1.0],
+        [0.0, 1.0, 0.0],
+        50.0,
+    );
+    for camera in [camera, look.unwrap()] {
+        for steps in [[0, 0], [-128, -128], [128, 128], [1, -1], [-128, 57]] {
+            let shifted = camera.shifted(steps);
+            let at = [8.5 + f64::from(steps[0]) / 256.0, 11.5 + f64::from(steps[1]) / 256.0];
+            let along = |camera: &PinholeCamera, [x, y]: [f64; 2]| -> [f64; 3] {
+                std::array::from_fn(|k| camera.d0()[k] + x * camera.dx()[k] + y * camera.dy()[k])
+            };
+            assert_eq!(along(&shifted, [8.5, 11.5]), along(&camera, at), "{steps:?}");
+            assert_eq!(shifted.exponent(), camera.exponent());
+        }
+    }
+}
+
+#[test]
 fn numbers_that_are_no_camera_are_refused() {
     let f = frame(8, 8);
     let (o, z, y) = ([0.0; 3], [0.0, 0.0, 1.0], [0.0, 1.0, 0.0]);

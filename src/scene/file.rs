@@ -11,6 +11,10 @@
 //! A matrix is a list of rows, or its numbers in one list, row by row. Paths are relative to the
 //! scene file. "must" stands where there is no default.
 //!
+//! The centre of pixel (i, j) is the point (i + ½, j + ½) in the coordinates of `camera.opencv.K`,
+//! whose origin is the top left corner of the frame. OpenCV itself, and most calibrations, put
+//! that centre at (i, j): add 0.5 to their `cx` and `cy` (`K[0][2]` and `K[1][2]`).
+//!
 //! | key | default | meaning |
 //! |---|---|---|
 //! | `version` | must | 1 |
@@ -36,7 +40,7 @@
 //! | `camera.exact.d0` | must | direction of the top left corner of the frame |
 //! | `camera.exact.dx` | must | step of the direction per column |
 //! | `camera.exact.dy` | must | step of the direction per row |
-//! | `camera.opencv.K` | must | intrinsic 3×3 matrix, pixels, half-pixel centres |
+//! | `camera.opencv.K` | must | intrinsic 3×3 matrix, pixels; the centre of pixel (i, j) is (i + ½, j + ½): add 0.5 to `cx`, `cy` of calibrations that put it at (i, j) |
 //! | `camera.opencv.R` | must | rotation, 3×3 |
 //! | `camera.opencv.t` | must | translation: camera = R·world + t |
 //! | `camera.gl.view` | must | view matrix, 4×4, for column vectors |
