@@ -16,6 +16,7 @@ mod pair;
 mod ray;
 
 use crate::accel::{Accelerator, Pending, Slabs};
+use crate::mutant::{self, Mutant};
 use crate::pixel::{Pixel, Window, for_each_tile};
 use crate::scene::Scene;
 use crate::visibility::{
@@ -60,6 +61,9 @@ pub fn cast_with_tiles(
         };
         let mut answer = VisibilityTile::empty(tile, counting);
         for (index, pixel) in tile.pixels().enumerate() {
+            if mutant::is(Mutant::TileEdges) && pixel.x + 1 == tile.x1() {
+                continue;
+            }
             let (visible, cover) = caster.cast_pixel(pixel);
             answer.visible[index] = visible;
             if let Some(place) = answer.cover.get_mut(index) {
@@ -95,9 +99,12 @@ impl TileCaster<'_> {
                 let (covering, level) = coverage::decide(&ray, &candidate::vertices(triangle));
                 count(levels, level);
                 let Some(covering) = covering else { continue };
-                cover.crossed += triangle.copies;
-                cover.signed += i32::from(covering.sign) * triangle.copies as i32;
+                cover.crossed += counted(triangle.copies);
+                cover.signed += sign_counted(covering.sign) * triangle.copies as i32;
                 let mut found = Candidate::new(&ray, triangle, covering);
+                if mutant::is(Mutant::NearPlane) && found.reach() < 1e-4 {
+                    continue;
+                }
                 let Some(best) = &mut nearest else {
                     nearest = Some(found);
                     continue;
@@ -121,16 +128,28 @@ impl TileCaster<'_> {
 fn visible(view: &View, ray: &ray::Ray, nearest: &mut Candidate) -> Visible {
     let surface = nearest.narrow(ray);
     let covering = nearest.covering;
-    let tie = nearest.shared || covering.on_edge;
+    let on_edge = covering.on_edge && !mutant::is(Mutant::UnmarkedTies);
+    let tie = nearest.shared || on_edge;
+    let front = (covering.sign < 0) != mutant::is(Mutant::FacingFlipped);
     Visible {
         triangle: nearest.triangle.id,
-        facing: if covering.sign < 0 { Facing::Front } else { Facing::Back },
+        facing: if front { Facing::Front } else { Facing::Back },
         level: if tie { Level::Exact } else { covering.level },
         tie,
         barycentric: surface.barycentric,
         t_lo: view.camera_t(surface.t[0]),
         t_hi: view.camera_t(surface.t[1]),
     }
+}
+
+/// What the copies of a triangle add to the cover.
+fn counted(copies: u32) -> u32 {
+    if mutant::is(Mutant::CoverTwice) { copies * copies } else { copies }
+}
+
+/// What sgn V adds to the signed count.
+fn sign_counted(sign: i8) -> i32 {
+    if mutant::is(Mutant::UnsignedCount) { 1 } else { i32::from(sign) }
 }
 
 fn count(levels: &mut LevelCounts, level: Level) {

@@ -18,6 +18,7 @@ mod ties;
 pub use ties::TieAnswers;
 
 use crate::mesh::{Barycentric, TriangleId};
+use crate::mutant::{self, Mutant};
 use crate::pixel::Pixel;
 use crate::scene::Scene;
 use crate::visibility::{Cover, Facing};
@@ -141,16 +142,18 @@ fn answer_of(ray: &Ray, contacts: &[Contact]) -> Answer {
     let mut cover = Cover::default();
     for contact in covering() {
         cover.crossed += 1;
-        cover.signed -= i32::from(contact.facing.sign());
+        let sign = if mutant::is(Mutant::UnsignedCount) { -1 } else { contact.facing.sign() };
+        cover.signed -= i32::from(sign);
     }
     let visible = covering().min_by(|a, b| a.order(b, ray)).map(|nearest| {
-        let on_edge = nearest.edge_signs.contains(&0);
+        let on_edge = nearest.edge_signs.contains(&0) && !mutant::is(Mutant::UnmarkedTies);
+        let front = (nearest.facing == Facing::Front) != mutant::is(Mutant::FacingFlipped);
         let beside = covering()
             .any(|other| other.triangle != nearest.triangle && other.is_as_deep_as(nearest));
         let (t_lo, t_hi) = nearest.t_bounds();
         Surface {
             triangle: nearest.triangle,
-            facing: nearest.facing,
+            facing: if front { Facing::Front } else { Facing::Back },
             tie: on_edge || beside,
             t_lo,
             t_hi,

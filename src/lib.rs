@@ -40,7 +40,7 @@
 //! | structure | [`accel`] | BVHs built by obvhs, our own conservative boxes; only `cast` uses it |
 //! | shapes of an answer | [`visibility`], [`film`] | buffers; EXR, PNG, NPY |
 //! | scene | [`scene`] | `SceneFile` as written, `Scene` as meant; OBJ, shapes, camera, lights |
-//! | words | [`pixel`], [`color`], [`mesh`] | grids, ids, triangles |
+//! | words | [`pixel`], [`color`], [`mesh`], [`mutant`] | grids, ids, triangles; the tests' planted mistakes |
 //!
 //! To read the program, open `lib.rs`, `visibility.rs`, `cast.rs`, `raster.rs`, `shade.rs` and
 //! `check.rs` in this order.
@@ -107,6 +107,7 @@ pub mod exact;
 pub mod export;
 pub mod film;
 pub mod mesh;
+pub mod mutant;
 pub mod pixel;
 pub mod raster;
 pub mod render;

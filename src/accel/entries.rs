@@ -7,6 +7,7 @@
 
 use super::bounds::Bounds;
 use crate::mesh::{TriangleId, TriangleMesh};
+use crate::mutant::{self, Mutant};
 use rayon::prelude::*;
 use std::cmp::Ordering;
 use std::ops::Range;
@@ -72,7 +73,10 @@ pub(super) fn collect(mesh: &TriangleMesh) -> Entries {
             && bounds.last() == Some(&triangle_bounds)
             && canonical_bits(&last.vertices) == canonical_bits(&vertices)
         {
-            last.copies += 1;
+            if mutant::is(Mutant::LastCopyKept) {
+                last.id = id;
+            }
+            last.copies += u32::from(!mutant::is(Mutant::LostCopies));
             continue;
         }
         triangles.push(LeafTriangle { vertices, id, copies: 1 });
@@ -127,6 +131,11 @@ fn compare_boxes(a: &Bounds, b: &Bounds) -> Ordering {
 /// for triangles that cover the same samples with the same sign of V at the same t.
 fn canonical_bits(vertices: &[[f32; 3]; 3]) -> [[u32; 3]; 3] {
     let [a, b, c] = vertices.map(|vertex| vertex.map(|component| (component + 0.0).to_bits()));
+    if mutant::is(Mutant::FoldedReversed) {
+        let mut corners = [a, b, c];
+        corners.sort_unstable();
+        return corners;
+    }
     [[a, b, c], [b, c, a], [c, a, b]].into_iter().min().unwrap_or([a, b, c])
 }
 

@@ -18,6 +18,7 @@
 
 use super::entries::LeafTriangle;
 use super::node::{Child, Tree};
+use crate::mutant::{self, Mutant};
 
 /// κ = 1 + 8u, u = 2^-53: see the module's derivation.
 const PADDING: f64 = 1.0 + 4.0 * f64::EPSILON;
@@ -36,7 +37,7 @@ impl Slabs {
     pub(crate) fn new(eye: [f64; 3], direction: [f64; 3]) -> Self {
         Self {
             eye,
-            reciprocal: direction.map(|d| if d == 0.0 { f64::INFINITY } else { 1.0 / d }),
+            reciprocal: direction.map(reciprocal),
             near_side: direction.map(|d| usize::from(d < 0.0)),
         }
     }
@@ -55,8 +56,28 @@ impl Slabs {
                 far[child] = smaller((f64::from(last[child]) - eye) * reciprocal, far[child]);
             }
         }
-        [[near[0], near[1]], [far[0] * PADDING, far[1] * PADDING]]
+        let padding = if unpadded() { 1.0 } else { PADDING };
+        [[near[0], near[1]], [far[0] * padding, far[1] * padding]]
     }
+}
+
+/// 1/d, +∞ for a component of 0.
+#[inline(always)]
+fn reciprocal(d: f64) -> f64 {
+    if mutant::is(Mutant::ClampedReciprocal) && d.abs() < 2.0_f64.powi(-23) {
+        return 2.0_f64.powi(23).copysign(d);
+    }
+    match d == 0.0 {
+        true if mutant::is(Mutant::FiniteReciprocal) => f64::MAX,
+        true => f64::INFINITY,
+        false => 1.0 / d,
+    }
+}
+
+/// Whether a planted mistake takes the padding away.
+#[inline(always)]
+fn unpadded() -> bool {
+    mutant::is(Mutant::UnpaddedSlabs) || mutant::is(Mutant::OpenSlabs)
 }
 
 /// The larger; `bound` when `value` is NaN.
@@ -96,7 +117,11 @@ impl Tree {
             } else {
                 let node = &self.nodes[child.first as usize];
                 let [near, far] = slabs.meet(&node.planes);
-                let met: [bool; 2] = std::array::from_fn(|i| near[i] <= far[i] && near[i] <= reach);
+                let met: [bool; 2] = std::array::from_fn(|i| {
+                    near[i] <= far[i]
+                        && near[i] <= reach
+                        && !(mutant::is(Mutant::OpenSlabs) && near[i] == far[i])
+                });
                 let first = usize::from(near[1] < near[0]);
                 match met {
                     [true, true] => {

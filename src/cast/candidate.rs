@@ -10,6 +10,7 @@ use super::pair::{PairVector, triple_product};
 use super::ray::Ray;
 use crate::accel::LeafTriangle;
 use crate::mesh::{Barycentric, TriangleId};
+use crate::mutant::{self, Mutant};
 use crate::visibility::Level;
 
 /// A covering triangle.
@@ -50,7 +51,7 @@ impl Candidate {
 
     /// Certain upper bound of t.
     pub(super) fn reach(&self) -> f64 {
-        self.t[1]
+        self.t[usize::from(!mutant::is(Mutant::PruneEqual))]
     }
 
     /// The surface, computed once.
@@ -73,11 +74,14 @@ impl Candidate {
         ray: &Ray,
         same_plane: &mut SamePlane,
     ) -> (bool, Level) {
+        if let Some(nearer) = self.planted_order(other, ray) {
+            return (nearer, Level::Double);
+        }
         if let Some(nearer) = separated(self.t, other.t) {
             return (nearer, Level::Double);
         }
         let ids = [self.triangle.id, other.triangle.id];
-        let lower_id = ids[0] < ids[1];
+        let lower_id = (ids[0] < ids[1]) != mutant::is(Mutant::LastIdInPlane);
         let pair = [ids[0].min(ids[1]), ids[0].max(ids[1])];
         if *same_plane == Some(pair) {
             self.shared = true;
@@ -99,7 +103,22 @@ impl Candidate {
         if f.sign == 0 {
             *same_plane = Some(pair);
         }
-        (if f.sign == 0 { lower_id } else { f.sign < 0 }, Level::Exact)
+        let by_id = f.sign == 0 || (f.zero && mutant::is(Mutant::LowestIdFirst));
+        (if by_id { lower_id } else { f.sign < 0 }, Level::Exact)
+    }
+
+    /// How a planted mistake orders the two.
+    #[inline(always)]
+    fn planted_order(&mut self, other: &mut Self, ray: &Ray) -> Option<bool> {
+        if mutant::is(Mutant::SingleDepth) {
+            return Some((self.narrow(ray).t[0] as f32) < (other.narrow(ray).t[0] as f32));
+        }
+        if mutant::is(Mutant::DoubleDepth) {
+            return Some(self.narrow(ray).t[0] < other.narrow(ray).t[0]);
+        }
+        let near_tie = (self.t[0] - other.t[0]).abs() < 1e-6 * self.t[1];
+        (mutant::is(Mutant::DepthEpsilon) && near_tie)
+            .then_some(self.triangle.id < other.triangle.id)
     }
 }
 
@@ -135,7 +154,7 @@ fn crude_interval(covering: Covering) -> [f64; 2] {
     } else {
         f64::INFINITY
     };
-    [lo, hi]
+    if mutant::is(Mutant::InwardInterval) { [v.value / d.value; 2] } else { [lo, hi] }
 }
 
 /// The surface of a covering triangle.
@@ -165,6 +184,6 @@ pub(super) fn surface(ray: &Ray, v: &Vertices) -> Surface {
     let t = plane / speed;
     Surface {
         t: [t * (1.0 - 12.0 * U), t * (1.0 + 12.0 * U)],
-        barycentric: Barycentric(w.map(|w| w / speed)),
+        barycentric: Barycentric(mutant::shifted(w).map(|w| w / speed)),
     }
 }

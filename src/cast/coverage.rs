@@ -6,6 +6,7 @@
 use super::exact::{self, Vertices};
 use super::filter::{Bounded, Relative};
 use super::ray::Ray;
+use crate::mutant::{self, Mutant};
 use crate::visibility::Level;
 
 /// A triangle that covers the sample.
@@ -62,9 +63,18 @@ fn decide_near_edges(ray: &Ray, vertices: &Vertices, relative: &Relative, w: [f6
     let mut edges = Edges { sign: 0, level: Level::Double, on_edge: false };
     for (i, certain) in signs.into_iter().enumerate() {
         let sign = certain.unwrap_or_else(|| {
+            if mutant::is(Mutant::SignBit) && w[i] == 0.0 {
+                return if w[i].is_sign_negative() { -1 } else { 1 };
+            }
             let signed = exact::edge_sign(ray, vertices, i);
             edges.level = Level::Exact;
             edges.on_edge |= signed.zero;
+            if signed.zero && mutant::is(Mutant::InclusiveEdges) {
+                return exact::plane_sign(ray, vertices);
+            }
+            if signed.zero && mutant::is(Mutant::ExclusiveEdges) {
+                return 0;
+            }
             signed.sign
         });
         // c_i = 0 implies V = 0; opposite signs are outside.
@@ -84,9 +94,21 @@ fn with_plane(ray: &Ray, vertices: &Vertices, relative: &Relative, edges: Edges)
         Some(sign) => (sign, edges.level),
         None => (exact::plane_sign(ray, vertices), Level::Exact),
     };
-    if sign != edges.sign {
+    if sign != edges.sign && !planted_agreement(sign) || planted_epsilon(plane_and_speed[1]) {
         return (None, level);
     }
     let Edges { level: edge_level, on_edge, .. } = edges;
     (Some(Covering { sign, level: edge_level, on_edge, plane_and_speed }), level)
+}
+
+/// Whether a planted mistake takes a sgn V that is not that of the edges.
+#[inline(always)]
+fn planted_agreement(sign: i8) -> bool {
+    mutant::is(if sign == 0 { Mutant::VolumeZeroHits } else { Mutant::MirrorGhost })
+}
+
+/// Whether a planted mistake takes D for 0.
+#[inline(always)]
+fn planted_epsilon(speed: Bounded) -> bool {
+    mutant::is(Mutant::DeterminantEpsilon) && speed.value.abs() < 1e-6
 }

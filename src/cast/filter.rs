@@ -15,6 +15,7 @@
 use super::exact::Vertices;
 use super::pair::largest;
 use super::ray::Ray;
+use crate::mutant::{self, Mutant};
 
 /// u = 2^-53.
 pub(super) const U: f64 = f64::EPSILON / 2.0;
@@ -83,6 +84,13 @@ impl Relative {
     pub(super) fn edge_functions(&self, ray: &Ray) -> ([f64; 3], f64) {
         let d = ray.direction();
         let values = std::array::from_fn(|i| dot(self.edges[i], cross(d, self.a[(i + 1) % 3])));
+        if mutant::is(Mutant::BelievedEdges) {
+            return (values, 0.0);
+        }
+        if mutant::is(Mutant::ContractedEdges) {
+            let contracted = |i: usize| contracted(self.edges[i], d, self.a[(i + 1) % 3]);
+            return ([0, 1, 2].map(contracted), 0.0);
+        }
         (values, EDGE_CRUDE * (self.largest_a * self.largest_edge * self.largest_direction))
     }
 
@@ -113,6 +121,12 @@ impl Relative {
 #[inline(always)]
 fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// e·(d × a) as a contracting compiler would have it: a planted mistake.
+fn contracted(e: [f64; 3], d: [f64; 3], a: [f64; 3]) -> f64 {
+    let [x, y, z] = [(1, 2), (2, 0), (0, 1)].map(|(i, j)| d[i].mul_add(a[j], -(d[j] * a[i])));
+    e[2].mul_add(z, e[1].mul_add(y, e[0] * x))
 }
 
 #[inline(always)]

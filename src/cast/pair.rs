@@ -6,6 +6,7 @@
 //! to a few u, the caller takes expansions instead.
 
 use super::expansion::{two_difference, two_product, two_sum};
+use crate::mutant::{self, Mutant};
 
 /// `[high, low]` per component: a vector that is the sum of the two, |low| ≤ u·|high|.
 #[derive(Clone, Copy, Debug)]
@@ -18,7 +19,8 @@ impl PairVector {
     /// a − b exactly.
     pub(super) fn difference(a: [f64; 3], b: [f64; 3]) -> Self {
         let pairs: [[f64; 2]; 3] = std::array::from_fn(|k| two_difference(a[k], b[k]));
-        Self { high: pairs.map(|p| p[0]), low: pairs.map(|p| p[1]) }
+        let low = pairs.map(|p| if mutant::is(Mutant::EyeTailDropped) { 0.0 } else { p[1] });
+        Self { high: pairs.map(|p| p[0]), low }
     }
 
     /// A vector without low parts.

@@ -4,6 +4,7 @@
 //! of magnitude at most 1, exactly, and signs do not change. A ray parameter t of a scaled
 //! direction is t·2^-E of the camera's own.
 
+use crate::mutant::{self, Mutant};
 use crate::pixel::Pixel;
 use crate::scene::camera::PinholeCamera;
 
@@ -43,9 +44,12 @@ impl View {
 
     /// The ray through the sample of `pixel`. No operation rounds, by the camera's contract.
     pub(super) fn ray(&self, pixel: Pixel) -> Ray {
-        let [x, y] = pixel.sample();
+        let [mut x, mut y] = pixel.sample();
+        if mutant::is(Mutant::CornerSamples) {
+            (x, y) = (x - 0.5, y - 0.5);
+        }
         let d = std::array::from_fn(|k| self.d0[k] + x * self.dx[k] + y * self.dy[k]);
-        Ray { eye: self.eye, directions: [d, self.dx, self.dy] }
+        Ray { eye: self.eye, directions: mutant::moves([d, self.dx, self.dy]) }
     }
 
     /// The camera's t for a t of the scaled direction. Exact: a hit on f32 geometry has

@@ -9,6 +9,7 @@ use super::rational::{
     Vector, add, bounds_f64, cross, dot, exact, exact_vector, nearest_f64, scale, sign, subtract,
 };
 use crate::mesh::{Barycentric, TriangleId, TriangleMesh};
+use crate::mutant::{self, Mutant};
 use crate::scene::camera::PinholeCamera;
 use crate::visibility::Facing;
 use dashu_ratio::Relaxed;
@@ -42,7 +43,7 @@ impl Ray {
     /// sgn*(c·d): the sign with the sample moved by (+ε, +ε²), the first that is not 0 of c·d,
     /// c·DX and c·DY.
     fn moved_sign(&self, c: &Vector) -> i8 {
-        [&self.direction, &self.dx, &self.dy]
+        mutant::moves([&self.direction, &self.dx, &self.dy])
             .into_iter()
             .map(|direction| sign(&dot(c, direction)))
             .find(|&sign| sign != 0)
@@ -80,10 +81,13 @@ impl Contact {
         // Turn everything so that the volume is positive.
         let volume = dot(&a[0], &planes[0]);
         let (facing, volume, planes) = match sign(&volume) {
-            0 => return None,
+            0 if !mutant::is(Mutant::VolumeZeroHits) => return None,
             1 => (Facing::Back, volume, planes),
             _ => (Facing::Front, -volume, planes.map(|plane| plane.map(|c| -c))),
         };
+        if mutant::is(Mutant::DeterminantEpsilon) && volume < exact(1e-6) {
+            return None;
+        }
         // Hold the sample against the three edges.
         let weights = planes.each_ref().map(|plane| dot(plane, &ray.direction));
         let edge_signs = weights.each_ref().map(sign);
@@ -108,7 +112,10 @@ impl Contact {
 
     /// Whether the triangle covers the sample: the moved sample is inside all three edges.
     pub(super) fn covers(&self) -> bool {
-        self.moved_signs == [1; 3]
+        if mutant::is(Mutant::ExclusiveEdges) && self.edge_signs.contains(&0) {
+            return false;
+        }
+        self.moved_signs == [1; 3] || mutant::is(Mutant::InclusiveEdges)
     }
 
     /// Which of two is nearer: by V_A·(n_B·d) − V_B·(n_A·d), which has the sign of t_A − t_B, at
@@ -116,7 +123,14 @@ impl Contact {
     pub(super) fn order(&self, other: &Self, ray: &Ray) -> Ordering {
         let difference =
             subtract(&scale(&other.normal, &self.volume), &scale(&self.normal, &other.volume));
-        ray.moved_sign(&difference).cmp(&0).then(self.triangle.cmp(&other.triangle))
+        let by_id = match mutant::is(Mutant::LastIdInPlane) {
+            true => other.triangle.cmp(&self.triangle),
+            false => self.triangle.cmp(&other.triangle),
+        };
+        if mutant::is(Mutant::LowestIdFirst) && self.is_as_deep_as(other) {
+            return by_id;
+        }
+        ray.moved_sign(&difference).cmp(&0).then(by_id)
     }
 
     /// For each edge through the sample, the derivative of sgn V · W_i to the right and down: which
@@ -146,6 +160,9 @@ impl Contact {
 
     /// W_i/D, each rounded once.
     pub(super) fn barycentric(&self) -> Barycentric {
-        Barycentric(self.weights.each_ref().map(|weight| nearest_f64(&(weight / &self.divisor))))
+        Barycentric(
+            mutant::shifted(self.weights.each_ref())
+                .map(|weight| nearest_f64(&(weight / &self.divisor))),
+        )
     }
 }

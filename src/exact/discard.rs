@@ -8,6 +8,7 @@
 use super::interval::{Interval, cross, dot};
 use super::rational::{self, exact_vector};
 use crate::mesh::{TriangleId, TriangleMesh};
+use crate::mutant::{self, Mutant};
 
 /// Enclosures of the edge planes of one triangle with V ≠ 0; 152 bytes.
 #[derive(Clone, Debug)]
@@ -53,7 +54,7 @@ fn outline(mesh: &TriangleMesh, triangle: TriangleId, eye: [f64; 3]) -> Option<O
         None => exact_volume_sign(corners, eye),
     };
     let edge_planes = match sign {
-        0 => return None,
+        0 if !mutant::is(Mutant::VolumeZeroHits) => return None,
         1 => planes,
         _ => planes.map(|plane| plane.map(Interval::negated)),
     };

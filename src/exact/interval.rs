@@ -5,6 +5,8 @@
 //! finite here: |v − e| < 2^128, hence products of two stay below 2^256, triple products with a
 //! direction (|d| ≤ 2^300) below 2^560.
 
+use crate::mutant::{self, Mutant};
+
 /// All numbers from `lower` to `upper`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Interval {
@@ -49,7 +51,8 @@ impl Interval {
 
     /// An upper bound of the product with a float.
     pub(super) fn upper_times(self, factor: f64) -> f64 {
-        let bound = if factor >= 0.0 { self.upper } else { self.lower };
+        let upper = (factor >= 0.0) != mutant::is(Mutant::DiscardDoubt);
+        let bound = if upper { self.upper } else { self.lower };
         (bound * factor).next_up()
     }
 

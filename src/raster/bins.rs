@@ -9,6 +9,7 @@ use super::exact::ExactTriangle;
 use super::image_plane::ImagePlane;
 use super::rows::{Projection, TriangleRows};
 use crate::mesh::{TriangleId, TriangleMesh};
+use crate::mutant::{self, Mutant};
 use crate::pixel::Window;
 use rayon::prelude::*;
 
@@ -34,7 +35,10 @@ pub(super) fn set_up(
     id: TriangleId,
 ) -> Option<Candidate> {
     let corners = mesh.triangle(id);
-    let projection = Projection::new(plane, corners);
+    let mut projection = Projection::new(plane, corners);
+    if mutant::is(Mutant::MirrorGhost) && projection.is_behind(plane) {
+        projection = Projection::new(plane, corners.map(|v| v.map(|c| -c)));
+    }
     let pixels = pixels_of(plane, &projection, window)?;
     let rows = projection.rows(plane, id, || {
         let exact = ExactTriangle::new(plane, corners)?;
@@ -73,10 +77,11 @@ impl Grid {
 
     /// The rectangle of tiles that a rectangle of pixels meets, counted from the window's first.
     fn tiles_of(self, pixels: Rectangle) -> Rectangle {
+        let more = u32::from(!mutant::is(Mutant::ShortBins));
         Rectangle {
             x0: pixels.x0 / self.side - self.first_column,
             y0: pixels.y0 / self.side - self.first_row,
-            x1: (pixels.x1 - 1) / self.side + 1 - self.first_column,
+            x1: (pixels.x1 - 1) / self.side + more - self.first_column,
             y1: (pixels.y1 - 1) / self.side + 1 - self.first_row,
         }
     }

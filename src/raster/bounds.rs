@@ -5,6 +5,7 @@
 
 use super::image_plane::ImagePlane;
 use super::rows::{Homogeneous, POINT_ERROR, Projection, U};
+use crate::mutant::{self, Mutant};
 use crate::pixel::{Pixel, Window};
 
 /// A non-empty rectangle of pixels, half open.
@@ -57,7 +58,7 @@ pub(super) fn pixels_of(
     }
     let whole = Rectangle::of(window);
     if !bounds.iter().all(|[low, _]| *low > 0.0) {
-        return Some(whole);
+        return (!mutant::is(Mutant::EyePlaneRejected)).then_some(whole);
     }
     let range = |axis: usize, first: u32, end: u32| -> Option<(u32, u32)> {
         let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
@@ -69,7 +70,10 @@ pub(super) fn pixels_of(
         // Pixel i has its sample at i + ½. Rounding to nearest is monotone and keeps integers, so
         // `ceil` cannot come out too high nor `floor` too low.
         let from = (low - 0.5).ceil().max(f64::from(first));
-        let to = (high - 0.5).floor().min(f64::from(end) - 1.0);
+        let mut to = (high - 0.5).floor().min(f64::from(end) - 1.0);
+        if mutant::is(Mutant::ShortBounds) {
+            to -= 1.0;
+        }
         (from <= to).then_some((from as u32, to as u32 + 1))
     };
     let (x0, x1) = range(0, whole.x0, whole.x1)?;

@@ -9,6 +9,7 @@ use super::dyadic::{Dyadic, Scaled, sign};
 use super::exact_row::{DepthOrder, ExactRow};
 use super::image_plane::ImagePlane;
 use crate::mesh::{TriangleId, TriangleMesh};
+use crate::mutant::{self, Mutant};
 use crate::pixel::Pixel;
 use dashu_int::IBig;
 use std::collections::HashMap;
@@ -54,7 +55,10 @@ impl ExactTriangle {
         let [x0, x1, x2] = &points;
         let edges = [cross(x1, x2), cross(x2, x0), cross(x0, x1)];
         let volume = dot(x0, &edges[0]);
-        let volume_sign = sign(&volume);
+        let volume_sign = match sign(&volume) {
+            0 if mutant::is(Mutant::VolumeZeroHits) => 1,
+            sign => sign,
+        };
         if volume_sign == 0 {
             return None;
         }
@@ -100,7 +104,7 @@ impl ExactTriangle {
     /// values of 2^-52 each, and the division's 2^-53.
     pub(super) fn weights_at(&self, pixel: Pixel) -> [f64; 3] {
         let sum = self.plane.value_at(pixel);
-        [0, 1, 2].map(|k| {
+        mutant::shifted([0, 1, 2]).map(|k| {
             let edge = self.edges[k].value_at(pixel);
             Scaled {
                 mantissa: edge.mantissa / sum.mantissa,

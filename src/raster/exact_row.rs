@@ -4,6 +4,7 @@
 //! decide the rest. What a row means (an edge, a plane, a depth comparison) is its caller's matter.
 
 use super::dyadic::{Scaled, sign, truncated};
+use crate::mutant::{self, Mutant};
 use crate::pixel::Pixel;
 use dashu_int::IBig;
 use dashu_int::ops::BitTest;
@@ -61,7 +62,7 @@ impl ExactRow {
             Some(wide) => sign(&wide[k]),
             None => self.short[k].signum() as i32,
         };
-        [sign_at, slope(0), slope(1)].into_iter().find(|&s| s != 0).unwrap_or(0)
+        mutant::moves([sign_at, slope(0), slope(1)]).into_iter().find(|&s| s != 0).unwrap_or(0)
     }
 
     /// The value at the sample; relative error at most 2^-52.
@@ -91,7 +92,8 @@ impl ExactRow {
 
 /// Twice the sample's coordinates: 2i + 1 and 2j + 1.
 fn doubled(pixel: Pixel) -> [i128; 2] {
-    [i128::from(pixel.x) * 2 + 1, i128::from(pixel.y) * 2 + 1]
+    let half = i128::from(!mutant::is(Mutant::CornerSamples));
+    [i128::from(pixel.x) * 2 + half, i128::from(pixel.y) * 2 + half]
 }
 
 fn evaluate(wide: &[IBig; 3], pixel: Pixel) -> IBig {

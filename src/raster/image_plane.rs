@@ -5,6 +5,7 @@
 //! Only the camera is treated here; vertices and edges are `rows` (f64) and `exact` (integers).
 
 use super::dyadic::{Dyadic, sign};
+use crate::mutant::{self, Mutant};
 use crate::scene::camera::PinholeCamera;
 use dashu_int::IBig;
 
@@ -61,7 +62,10 @@ impl ImagePlane {
             adjugate: rows.map(|row| row.map(|c| c as f64)),
             eye: camera.eye(),
             extent: [f64::from(resolution.width()), f64::from(resolution.height())],
-            orientation: f64::from(sign(&determinant)),
+            orientation: match mutant::is(Mutant::OrientationIgnored) {
+                true => 1.0,
+                false => f64::from(sign(&determinant)),
+            },
             exact: ExactPlane {
                 adjugate: rows.map(|row| row.map(|c| IBig::from(c >> common))),
                 adjugate_exponent: i64::from(common),

@@ -7,6 +7,7 @@ use super::exact::{ExactStage, ExactTriangle};
 use super::rows::U;
 use super::tile::Fragment;
 use crate::mesh::Barycentric;
+use crate::mutant::{self, Mutant};
 use crate::pixel::{Pixel, Window};
 use crate::visibility::{Facing, Level, Visible};
 use std::rc::Rc;
@@ -37,10 +38,12 @@ pub(super) fn resolve(
 fn answer(pixel: Pixel, fragment: &Fragment, triangle: &ExactTriangle) -> Visible {
     // t is off by at most 6u; the factors' own roundings and products take 2u more.
     let t = triangle.t_at(pixel);
-    let tie = fragment.on_edge || fragment.same_depth;
+    let on_edge = fragment.on_edge && !mutant::is(Mutant::UnmarkedTies);
+    let tie = on_edge || fragment.same_depth;
+    let front = (triangle.volume_sign < 0) != mutant::is(Mutant::FacingFlipped);
     Visible {
         triangle: fragment.triangle,
-        facing: if triangle.volume_sign < 0 { Facing::Front } else { Facing::Back },
+        facing: if front { Facing::Front } else { Facing::Back },
         level: if fragment.exact || tie { Level::Exact } else { Level::Double },
         tie,
         barycentric: Barycentric(triangle.weights_at(pixel)),

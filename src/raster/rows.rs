@@ -13,6 +13,7 @@
 
 use super::image_plane::ImagePlane;
 use crate::mesh::TriangleId;
+use crate::mutant::{self, Mutant};
 
 /// Half an ulp of 1: the relative error of one rounding.
 pub(super) const U: f64 = f64::EPSILON / 2.0;
@@ -81,12 +82,18 @@ impl Row {
     fn new(row: &Homogeneous, factor: f64, extent: [f64; 2]) -> Self {
         let [a, b, c] = row.value.map(|v| v * factor);
         let q = row.magnitude;
+        if mutant::is(Mutant::BelievedEdges) || mutant::is(Mutant::ContractedEdges) {
+            return Self { a, b, c, bound: 0.0 };
+        }
         Self { a, b, c, bound: ROW_ERROR * (q[0] * extent[0] + q[1] * extent[1] + q[2]) }
     }
 
     /// The value at a sample, always from the frame's origin: the same bits in every tile.
     #[inline]
     pub(super) fn at(&self, x: f64, y: f64) -> f64 {
+        if mutant::is(Mutant::ContractedEdges) {
+            return self.a.mul_add(x, self.b.mul_add(y, self.c));
+        }
         (self.a * x + self.b * y) + self.c
     }
 }
@@ -121,6 +128,11 @@ impl Projection {
         Self { vertices, points }
     }
 
+    /// Whether all corners lie behind the eye's plane, for a planted mistake.
+    pub(super) fn is_behind(&self, plane: &ImagePlane) -> bool {
+        self.points.iter().all(|point| point.value[2] * plane.orientation < 0.0)
+    }
+
     /// The rows, or `None` when V = 0: such a triangle is never visible.
     ///
     /// `exact_volume` gives sgn V and |V| (relative error 2^-52) where f64 cannot certify the sign,
@@ -142,6 +154,9 @@ impl Projection {
         let volume = x0.value[0] * n[0] + x0.value[1] * n[1] + x0.value[2] * n[2];
         let (p, q) = (&x0.magnitude, &normal.magnitude);
         let error = VOLUME_ERROR * (p[0] * q[0] + p[1] * q[1] + p[2] * q[2]);
+        if mutant::is(Mutant::DeterminantEpsilon) && volume.abs() < 1e-6 {
+            return None;
+        }
         // Certify sgn V, or ask for it. 2^-51 is twice the relative error of an exact volume.
         let (volume_sign, size, error) = if volume.abs() > error {
             (if volume < 0.0 { -1 } else { 1 }, volume.abs(), error)
@@ -172,6 +187,9 @@ impl TriangleRows {
     #[inline]
     pub(super) fn inverse_depth(&self, x: f64, y: f64) -> [f64; 2] {
         let value = self.plane.at(x, y);
+        if mutant::is(Mutant::InwardInterval) {
+            return [value * self.inverse_volume[0]; 2];
+        }
         // Where the lower end is negative it is still a bound, because the true value is positive.
         [
             (value - self.plane.bound) * self.inverse_volume[0],

@@ -4,6 +4,7 @@
 
 use super::bounds::Rectangle;
 use super::rows::{Row, TriangleRows};
+use crate::mutant::{self, Mutant};
 
 /// Least and greatest computed value of an edge over the samples of a rectangle: a linear function
 /// takes them at corners.
@@ -31,7 +32,8 @@ pub(super) fn span(rows: &TriangleRows, open: [bool; 3], pixels: Rectangle, y: f
         if open && edge.a != 0.0 {
             let boundary = -((edge.b * y + edge.c) + 2.0 * edge.bound) / edge.a;
             if edge.a > 0.0 {
-                low = low.max(boundary.floor() - 1.0);
+                let room = if mutant::is(Mutant::ShortSpan) { -1.0 } else { 1.0 };
+                low = low.max(boundary.floor() - room);
             } else {
                 high = high.min(boundary.ceil() + 1.0);
             }

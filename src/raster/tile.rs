@@ -11,6 +11,7 @@ use super::resolve::resolve;
 use super::rows::TriangleRows;
 use super::span::{range_over, span};
 use crate::mesh::{TriangleId, TriangleMesh};
+use crate::mutant::{self, Mutant};
 use crate::pixel::{Pixel, Window};
 use crate::visibility::{Counting, Cover, LevelCounts, VisibilityTile};
 use std::borrow::Cow;
@@ -111,17 +112,28 @@ impl Tile<'_> {
         let Some(pixels) = candidate.pixels.intersection(Rectangle::of(self.window)) else {
             return;
         };
+        let mut pixels = pixels;
+        if mutant::is(Mutant::TileEdges) {
+            pixels.x1 = pixels.x1.min(self.window.x1() - 1);
+            if pixels.x1 <= pixels.x0 {
+                return;
+            }
+        }
         // Drop the triangle where one edge excludes the whole rectangle; note the edges that leave
         // no doubt in it.
         let mut open = [true; 3];
         for (edge, open) in rows.edges.iter().zip(&mut open) {
             let [least, greatest] = range_over(edge, pixels);
-            if greatest < -edge.bound {
+            let corner = if mutant::is(Mutant::TileCorner) { least } else { greatest };
+            if corner < -edge.bound {
                 return;
             }
             // True values are then at least 3·bound, so each pixel's own test would certify it too:
             // a level does not depend on the tile.
             *open = least.is_nan() || least <= 4.0 * edge.bound;
+            if mutant::is(Mutant::ClosedEdges) {
+                *open = least < -edge.bound;
+            }
         }
         for y in pixels.y0..pixels.y1 {
             let y_sample = f64::from(y) + 0.5;
@@ -166,7 +178,16 @@ impl Tile<'_> {
                 continue;
             }
             let sign = exact.sign_at(pixel);
-            if exact.moved_sign(sign) <= 0 {
+            if mutant::is(Mutant::SignBit) && sign == 0 {
+                match edge.at(x, y).is_sign_negative() {
+                    true => return None,
+                    false => continue,
+                }
+            }
+            if exact.moved_sign(sign) <= 0 && !(sign == 0 && mutant::is(Mutant::InclusiveEdges)) {
+                return None;
+            }
+            if sign == 0 && mutant::is(Mutant::ExclusiveEdges) {
                 return None;
             }
             on_edge |= sign == 0;
@@ -180,7 +201,7 @@ impl Tile<'_> {
         let index = self.window.index(pixel);
         if let Some(cover) = self.cover.get_mut(index) {
             cover.crossed += 1;
-            cover.signed += rows.volume_sign;
+            cover.signed += if mutant::is(Mutant::UnsignedCount) { 1 } else { rows.volume_sign };
         }
         let [x, y] = pixel.sample();
         let mut fragment = Fragment {
@@ -191,6 +212,9 @@ impl Tile<'_> {
             inverse_depth: rows.inverse_depth(x, y),
         };
         if let Some(nearest) = self.fragments[index] {
+            if planted_reject(&fragment, &nearest) {
+                return;
+            }
             // Compare 1/t: disjoint intervals decide, and are never equal.
             let [low, high] = fragment.inverse_depth;
             let [nearest_low, nearest_high] = nearest.inverse_depth;
@@ -218,10 +242,15 @@ impl Tile<'_> {
         // Only triangles with V ≠ 0 cover, so that there always is an order.
         let Some(order) = order else { return false };
         let wins = match order.moved {
+            _ if order.at_sample == Ordering::Equal && mutant::is(Mutant::LowestIdFirst) => {
+                candidate.triangle < nearest.triangle
+            }
             Ordering::Less => true,
             Ordering::Greater => false,
             // The same plane: the lowest id.
-            Ordering::Equal => candidate.triangle < nearest.triangle,
+            Ordering::Equal => {
+                (candidate.triangle < nearest.triangle) != mutant::is(Mutant::LastIdInPlane)
+            }
         };
         if order.at_sample == Ordering::Equal {
             candidate.same_depth = true;
@@ -232,4 +261,13 @@ impl Tile<'_> {
         }
         wins
     }
+}
+
+/// Whether a planted mistake keeps the nearest so far, by its lower bounds of 1/t.
+#[inline(always)]
+fn planted_reject(candidate: &Fragment, nearest: &Fragment) -> bool {
+    let [new, old] = [candidate.inverse_depth[0], nearest.inverse_depth[0]];
+    mutant::is(Mutant::SingleDepth) && (new as f32) <= (old as f32)
+        || mutant::is(Mutant::DoubleDepth) && new <= old
+        || mutant::is(Mutant::DepthEpsilon) && (new - old).abs() < 1e-6 * old
 }

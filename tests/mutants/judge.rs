@@ -1,0 +1,135 @@
+//! How a case judges: the right answer at every pixel, and how many pixels of a path differ.
+
+use std::fmt;
+use truecast::accel::{Accelerator, BuildPreset};
+use truecast::cast::cast_with_tiles;
+use truecast::exact::{Answer, Arbiter};
+use truecast::raster::rasterize_in_tiles;
+use truecast::scene::Scene;
+use truecast::visibility::{Counting, Cover, VisibilityBuffer, Visible};
+
+/// Who answers.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Path {
+    /// The ray caster, with its accelerator.
+    Cast,
+    /// The rasterizer.
+    Raster,
+    /// The arbiter.
+    Exact,
+}
+
+impl Path {
+    pub(crate) const ALL: [Self; 3] = [Self::Cast, Self::Raster, Self::Exact];
+}
+
+impl fmt::Display for Path {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Cast => "cast",
+            Self::Raster => "raster",
+            Self::Exact => "exact",
+        })
+    }
+}
+
+/// A case's scenes with their right answers.
+pub(crate) struct Bench(Vec<Judged>);
+
+struct Judged {
+    scene: Scene,
+    answers: Vec<Answer>,
+}
+
+/// Tiles that are smaller than the frames of the cases, so that tiles have edges in the picture,
+/// and tiles that hold them whole, so that rows are long.
+const TILE_SIDES: [u32; 2] = [4, 32];
+
+/// Largest difference of a barycentric weight from the exact one: both paths promise a few 2^-50.
+const WEIGHT_TOLERANCE: f64 = 1.0 / (1_u64 << 45) as f64;
+
+impl Bench {
+    /// Asks the arbiter, while nothing is planted.
+    pub(crate) fn new(scenes: Vec<Scene>) -> Self {
+        let judged = |scene: Scene| Judged { answers: answers(&scene), scene };
+        Self(scenes.into_iter().map(judged).collect())
+    }
+
+    /// The right answers of the first scene.
+    pub(crate) fn answers(&self) -> &[Answer] {
+        &self.0[0].answers
+    }
+
+    /// Pixels of all scenes.
+    pub(crate) fn pixels(&self) -> usize {
+        self.0.iter().map(|judged| judged.answers.len()).sum()
+    }
+
+    /// Pixels at which a triangle is visible.
+    pub(crate) fn covered(&self) -> usize {
+        let all = self.0.iter().flat_map(|judged| &judged.answers);
+        all.filter(|answer| answer.visible.is_some()).count()
+    }
+
+    /// Pixels at which a path gives a wrong answer, in any of its ways of working.
+    pub(crate) fn wrong_pixels(&self, path: Path) -> usize {
+        self.0.iter().map(|judged| judged.wrong_pixels(path)).sum()
+    }
+}
+
+impl Judged {
+    fn wrong_pixels(&self, path: Path) -> usize {
+        let Self { scene, answers: right } = self;
+        let window = scene.camera.resolution().window();
+        let buffers: Vec<VisibilityBuffer> = match path {
+            Path::Cast => {
+                let tree = Accelerator::build(&scene.mesh, BuildPreset::Medium);
+                [Counting::All, Counting::Nearest]
+                    .into_iter()
+                    .zip(TILE_SIDES)
+                    .map(|(counting, side)| {
+                        cast_with_tiles(scene, &tree, window, counting, &|| (), side)
+                    })
+                    .collect()
+            }
+            Path::Raster => TILE_SIDES
+                .into_iter()
+                .map(|side| rasterize_in_tiles(scene, window, Counting::All, side, &|| ()))
+                .collect(),
+            Path::Exact => {
+                let found = answers(scene);
+                return found.iter().zip(right).filter(|(found, right)| found != right).count();
+            }
+        };
+        let is_wrong = |index: &usize| {
+            buffers.iter().any(|buffer| {
+                let cover = buffer.cover.as_ref().map(|cover| cover[*index]);
+                !is_right(buffer.visible[*index].as_ref(), cover, &right[*index])
+            })
+        };
+        (0..right.len()).filter(is_wrong).count()
+    }
+}
+
+fn answers(scene: &Scene) -> Vec<Answer> {
+    let arbiter = Arbiter::new(scene);
+    scene.camera.resolution().window().pixels().map(|pixel| arbiter.answer(pixel)).collect()
+}
+
+/// Whether a path's answer is the right one in every field.
+fn is_right(found: Option<&Visible>, cover: Option<Cover>, right: &Answer) -> bool {
+    let surface = match (found, &right.visible) {
+        (None, None) => true,
+        (Some(found), Some(right)) => {
+            let weights = found.barycentric.0.iter().zip(right.barycentric.0);
+            found.triangle == right.triangle
+                && found.facing == right.facing
+                && found.tie == right.tie
+                && found.t_lo <= right.t_lo
+                && right.t_hi <= found.t_hi
+                && weights.into_iter().all(|(a, b)| (a - b).abs() <= WEIGHT_TOLERANCE)
+        }
+        _ => false,
+    };
+    surface && cover.is_none_or(|cover| cover == right.cover)
+}
