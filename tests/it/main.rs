@@ -10,6 +10,8 @@ mod check_can_fail;
 mod cli;
 // Files written and read back: EXR, PNG, NPY, atomic writes.
 mod film;
+// Another program's ids and depths, held against the exact answer.
+mod foreign;
 // Who may import whom: the house's floors as a table.
 mod layers;
 // Every row of the lighting systems by its name.
