@@ -8,8 +8,12 @@ mod cast;
 mod check_can_fail;
 // The program as a user meets it.
 mod cli;
+// The oracle bundle: what it holds, and what it may replace.
+mod export;
 // Files written and read back: EXR, PNG, NPY, atomic writes.
 mod film;
+// OpenCV and OpenGL cameras against pixel positions by textbook matrices.
+mod foreign_cameras;
 // Who may import whom: the house's floors as a table.
 mod layers;
 // Every row of the lighting systems by its name.
@@ -30,3 +34,5 @@ mod scene_load;
 mod scenes;
 // Golden scenes and builders that several modules use.
 mod support;
+// The list of visible triangles, and what lies between pixel centres.
+mod visible;
