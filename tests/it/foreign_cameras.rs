@@ -136,7 +136,8 @@ fn assert_sees(name: &str, camera: &PinholeCamera, textbook: &Textbook<'_>, dept
     let mut expected = vec![None; window.len()];
     let (right, bottom) = (frame.width() - 1, frame.height() - 1);
     let is_aimed = |p: &Pixel| {
-        (p.x + 3 * p.y) % 23 == 0 || ([0, right].contains(&p.x) && [0, bottom].contains(&p.y))
+        (p.x + 3 * p.y).is_multiple_of(23)
+            || ([0, right].contains(&p.x) && [0, bottom].contains(&p.y))
     };
     for (number, pixel) in window.pixels().filter(is_aimed).enumerate() {
         let depth = depths[number % depths.len()];
