@@ -5,7 +5,7 @@
 
 use super::PixelCounts;
 use super::spool::Spool;
-use super::stability::stability_of;
+use super::stability::{PASSES, stability_of};
 use crate::accel::Accelerator;
 use crate::cast::{TILE_SIDE, cast};
 use crate::pixel::Window;
@@ -45,10 +45,11 @@ pub(super) fn write(
     let mut stable = stable.begin_array::<u8>(&shape, "|u1")?;
     let mut counts = PixelCounts::default();
     let bands = bands(frame.window(), BAND_PIXELS, scene);
-    progress.begin("export", bands.iter().map(|band| band.tiles(TILE_SIDE).len()).sum());
+    let tiles: usize = bands.iter().map(|band| band.tiles(TILE_SIDE).len()).sum();
+    progress.begin("export", tiles * (1 + PASSES));
     for band in bands {
         let answer = cast(scene, accelerator, band, Counting::All, &|| progress.step());
-        let is_stable = stability_of(scene, accelerator, &answer);
+        let is_stable = stability_of(scene, accelerator, &answer, &|| progress.step());
         count(&mut counts, &answer, &is_stable);
         let visible = || answer.visible.iter().map(Option::as_ref);
         prim.extend(visible().map(|v| v.map_or(NOTHING, |v| v.triangle.get())))?;

@@ -9,15 +9,20 @@ use crate::visibility::{Counting, VisibilityBuffer, Visible};
 /// How far samples are moved, in 1/256 pixel.
 const STEP: i32 = 1;
 
+/// How often the window is answered.
+pub(super) const PASSES: usize = 8;
+
 /// Whether each pixel of `answer` shows the same triangle, or nothing, at its sample and at the
 /// eight points around it that are 1/256 pixel away along x, y or both.
 ///
 /// Each of the nine answers is exact, but they are nine: a sliver or a corner that lies wholly
-/// between the points is not seen. So 0 is certain, and 1 means "at these nine points".
+/// between the points is not seen. So 0 is certain, and 1 means "at these nine points". `done` is
+/// called [`PASSES`] times per tile of the caster.
 pub(super) fn stability_of(
     scene: &Scene,
     accelerator: &Accelerator,
     answer: &VisibilityBuffer,
+    done: &(dyn Fn() + Sync),
 ) -> Vec<bool> {
     let mut stable = vec![true; answer.window.len()];
     let mut shifted = scene.clone();
@@ -27,7 +32,7 @@ pub(super) fn stability_of(
                 continue;
             }
             shifted.camera = scene.camera.shifted([a, b]);
-            let moved = cast(&shifted, accelerator, answer.window, Counting::Nearest, &|| ());
+            let moved = cast(&shifted, accelerator, answer.window, Counting::Nearest, done);
             for (stable, (here, there)) in
                 stable.iter_mut().zip(answer.visible.iter().zip(&moved.visible))
             {

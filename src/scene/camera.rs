@@ -215,7 +215,7 @@ impl PinholeCamera {
     ///
     /// D0 + a·DX + b·DY is a sum of multiples of q0 of magnitude at most |D0| + |DX|/2 + |DY|/2 ≤
     /// M ≤ 2^53·q0, so it is an f64; every moved sample lies inside the frame, so its direction is
-    /// one of the exact ones of [`super::lattice`].
+    /// one of the exact ones of the lattice.
     ///
     /// # Panics
     /// When a step is outside −128…128: the sample would leave its pixel.

@@ -8,10 +8,14 @@ mod cast;
 mod check_can_fail;
 // The program as a user meets it.
 mod cli;
+// The oracle bundle: what it holds, and what it may replace.
+mod export;
 // Files written and read back: EXR, PNG, NPY, atomic writes.
 mod film;
 // Another program's ids and depths, held against the exact answer.
 mod foreign;
+// OpenCV and OpenGL cameras against pixel positions by textbook matrices.
+mod foreign_cameras;
 // Who may import whom: the house's floors as a table.
 mod layers;
 // Every row of the lighting systems by its name.
@@ -38,3 +42,5 @@ mod specials;
 mod structured;
 // Golden scenes and builders that several modules use.
 mod support;
+// The list of visible triangles, and what lies between pixel centres.
+mod visible;
