@@ -47,6 +47,7 @@ mutants! {
     SignBit, "sign bit", "an edge value of 0 counts by its sign bit, so -0 and +0 differ";
     // Signs of edges.
     BelievedEdges, "believed edges", "the rounded f64 edge value decides, whatever its bound";
+    SingleEdges, "f32 edges", "the edge is computed in f32, and is believed";
     ContractedEdges, "contracted edges", "the edge is a fused multiply-add, and is believed";
     EyeTailDropped, "eye tail dropped", "v - e is rounded in the exact stage too";
     CornerSamples, "corner samples", "half a pixel is missing in one path";
@@ -59,7 +60,7 @@ mutants! {
     OrientationIgnored, "orientation ignored", "the sign of det(P) is taken as +1";
     FacingFlipped, "facing flipped", "front and back are exchanged";
     // Depth.
-    SingleDepth, "f32 depth", "depths are compared in f32";
+    SingleDepth, "f32 depth", "depths are computed in f32";
     DoubleDepth, "f64 depth", "depths are compared in f64, without bounds";
     DepthEpsilon, "depth epsilon", "depths that differ by less than 1e-6 count as equal";
     InwardInterval, "interval not outward", "the interval of t is one rounded number";
@@ -139,6 +140,21 @@ pub(crate) fn moves<T: Copy>([value, along_x, along_y]: [T; 3]) -> [T; 3] {
     } else {
         [value, along_x, along_y]
     }
+}
+
+/// det(a, b, c) in f32 throughout.
+pub(crate) fn single_determinant(a: [f64; 3], b: [f64; 3], c: [f64; 3]) -> f32 {
+    let [a, b, c] = [a, b, c].map(|v| v.map(|component| component as f32));
+    let [x, y, z] = [(1, 2), (2, 0), (0, 1)].map(|(i, j)| b[i] * c[j] - b[j] * c[i]);
+    a[0] * x + a[1] * y + a[2] * z
+}
+
+/// t = V/D in f32, as a ray caster without bounds computes it.
+pub(crate) fn single_t(eye: [f64; 3], direction: [f64; 3], vertices: &[[f64; 3]; 3]) -> f32 {
+    let minus = |p: [f64; 3], q: [f64; 3]| std::array::from_fn(|k| p[k] - q[k]);
+    let [v0, v1, v2] = *vertices;
+    let (e1, e2) = (minus(v1, v0), minus(v2, v0));
+    single_determinant(minus(v0, eye), e1, e2) / single_determinant(direction, e1, e2)
 }
 
 /// Weights of three corners: as given, but for a planted mistake.

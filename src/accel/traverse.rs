@@ -56,8 +56,13 @@ impl Slabs {
                 far[child] = smaller((f64::from(last[child]) - eye) * reciprocal, far[child]);
             }
         }
-        let padding = if unpadded() { 1.0 } else { PADDING };
-        [[near[0], near[1]], [far[0] * padding, far[1] * padding]]
+        if mutant::is(Mutant::UnpaddedSlabs) {
+            return [near, far];
+        }
+        if mutant::is(Mutant::OpenSlabs) {
+            return [near, far.map(f64::next_down)];
+        }
+        [[near[0], near[1]], [far[0] * PADDING, far[1] * PADDING]]
     }
 }
 
@@ -67,17 +72,10 @@ fn reciprocal(d: f64) -> f64 {
     if mutant::is(Mutant::ClampedReciprocal) && d.abs() < 2.0_f64.powi(-23) {
         return 2.0_f64.powi(23).copysign(d);
     }
-    match d == 0.0 {
-        true if mutant::is(Mutant::FiniteReciprocal) => f64::MAX,
-        true => f64::INFINITY,
-        false => 1.0 / d,
+    if mutant::is(Mutant::FiniteReciprocal) && d == 0.0 {
+        return f64::MAX;
     }
-}
-
-/// Whether a planted mistake takes the padding away.
-#[inline(always)]
-fn unpadded() -> bool {
-    mutant::is(Mutant::UnpaddedSlabs) || mutant::is(Mutant::OpenSlabs)
+    if d == 0.0 { f64::INFINITY } else { 1.0 / d }
 }
 
 /// The larger; `bound` when `value` is NaN.
@@ -117,11 +115,7 @@ impl Tree {
             } else {
                 let node = &self.nodes[child.first as usize];
                 let [near, far] = slabs.meet(&node.planes);
-                let met: [bool; 2] = std::array::from_fn(|i| {
-                    near[i] <= far[i]
-                        && near[i] <= reach
-                        && !(mutant::is(Mutant::OpenSlabs) && near[i] == far[i])
-                });
+                let met: [bool; 2] = std::array::from_fn(|i| near[i] <= far[i] && near[i] <= reach);
                 let first = usize::from(near[1] < near[0]);
                 match met {
                     [true, true] => {

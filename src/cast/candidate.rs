@@ -111,7 +111,10 @@ impl Candidate {
     #[inline(always)]
     fn planted_order(&mut self, other: &mut Self, ray: &Ray) -> Option<bool> {
         if mutant::is(Mutant::SingleDepth) {
-            return Some((self.narrow(ray).t[0] as f32) < (other.narrow(ray).t[0] as f32));
+            let [own, others] = [&*self, &*other].map(|candidate| {
+                mutant::single_t(ray.eye, ray.direction(), &vertices(&candidate.triangle))
+            });
+            return Some(own < others);
         }
         if mutant::is(Mutant::DoubleDepth) {
             return Some(self.narrow(ray).t[0] < other.narrow(ray).t[0]);

@@ -87,6 +87,11 @@ impl Relative {
         if mutant::is(Mutant::BelievedEdges) {
             return (values, 0.0);
         }
+        if mutant::is(Mutant::SingleEdges) {
+            let single =
+                |i| mutant::single_determinant(self.edges[i], d, self.a[(i + 1) % 3]).into();
+            return ([0, 1, 2].map(single), 0.0);
+        }
         if mutant::is(Mutant::ContractedEdges) {
             let contracted = |i: usize| contracted(self.edges[i], d, self.a[(i + 1) % 3]);
             return ([0, 1, 2].map(contracted), 0.0);

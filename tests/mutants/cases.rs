@@ -165,13 +165,16 @@ fn mirrored_camera() -> Scene {
     Scene::from_triangles(camera.expect("a mirrored camera"), &[UPPER])
 }
 
-/// A slanted sheet and another whose corners are one ulp nearer, in both orders.
+/// A slanted triangle and another whose corners are one ulp nearer, in both orders; coordinates
+/// of 24 bits, because products of short ones are exact in f32 too.
 fn slanted_one_ulp_apart() -> Vec<Scene> {
-    let depth = |x: f32, y: f32| 1000.0 + x * 0.0625 + y * 0.125;
-    let far = rectangle([-1920.0, -1920.0], [1920.0, 1920.0], 0.0)
-        .map(|triangle| triangle.map(|[x, y, _]| [x, y, depth(x, y)]));
-    let near = far.map(|triangle| triangle.map(|[x, y, z]| [x, y, z.next_down()]));
-    [[far, near], [near, far]].map(|sheets| standard_scene(&sheets.concat())).into()
+    let far: Triangle = [
+        [-4000.123, -3900.771, 731.917],
+        [4100.337, -3700.913, 1203.129],
+        [33.717, 5200.939, 911.3],
+    ];
+    let near = far.map(|[x, y, z]| [x, y, z.next_down()]);
+    [[far, near], [near, far]].map(|sheets| standard_scene(&sheets)).into()
 }
 
 /// Triangles of the plane x + 2y + 3z = 3·2^22 with corners of 22 bits: V has some 70 bits, so that

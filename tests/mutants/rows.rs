@@ -38,6 +38,7 @@ pub(crate) const ROWS: &[Row] = &[
     // Signs of edges. H12 as it stands is exact in f64, contracted or not: products of two f32 do
     // not round there. Rays with 53 bits through the edges of a sphere take its place.
     row(Mutant::BelievedEdges, BOTH, "H16 aimed rays"),
+    row(Mutant::SingleEdges, CAST, "H16 aimed rays"),
     row(Mutant::ContractedEdges, BOTH, "H16 aimed rays"),
     row(Mutant::EyeTailDropped, CAST, "H72 eye 2^-60 beside an edge"),
     row(Mutant::CornerSamples, BOTH, "H03 grid_exact"),
