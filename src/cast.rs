@@ -12,8 +12,11 @@ mod coverage;
 mod exact;
 mod expansion;
 mod filter;
+mod memo;
 mod pair;
 mod ray;
+mod single;
+mod unrounded;
 
 use crate::accel::{Accelerator, Pending, Slabs};
 use crate::mutant::{self, Mutant};
@@ -22,8 +25,10 @@ use crate::scene::Scene;
 use crate::visibility::{
     Counting, Cover, Facing, Level, LevelCounts, VisibilityBuffer, VisibilityTile, Visible,
 };
-use candidate::{Candidate, SamePlane};
+use candidate::Candidate;
+use memo::{PicturePairs, SamePlane};
 use ray::View;
+use single::ShearedRay;
 
 /// Side of a tile, in pixels: neighbouring rays walk through the same nodes.
 pub const TILE_SIDE: u32 = 32;
@@ -50,13 +55,14 @@ pub fn cast_with_tiles(
     side: u32,
 ) -> VisibilityBuffer {
     let view = View::new(&scene.camera);
+    let pairs = PicturePairs::default();
     let tiles = for_each_tile(&window.tiles(side), done, |tile| {
         let mut caster = TileCaster {
             view,
             accelerator,
             counting,
             pending: Pending::default(),
-            same_plane: None,
+            same_plane: SamePlane::new(&pairs),
             levels: LevelCounts::default(),
         };
         let mut answer = VisibilityTile::empty(tile, counting);
@@ -82,7 +88,7 @@ struct TileCaster<'a> {
     accelerator: &'a Accelerator,
     counting: Counting,
     pending: Pending,
-    same_plane: SamePlane,
+    same_plane: SamePlane<'a>,
     levels: LevelCounts,
 }
 
@@ -92,12 +98,15 @@ impl TileCaster<'_> {
         let Self { view, accelerator, counting, pending, same_plane, levels } = self;
         let ray = view.ray(pixel);
         let slabs = Slabs::new(ray.eye, ray.direction());
+        let sheared = ShearedRay::new(&ray);
+        let mut highest = None;
         let mut nearest: Option<Candidate> = None;
         let mut cover = Cover::default();
         accelerator.traverse(&slabs, pending, |triangles| {
             for triangle in triangles {
-                let (covering, level) = coverage::decide(&ray, &candidate::vertices(triangle));
+                let (covering, level) = coverage::decide(&ray, &sheared, triangle);
                 count(levels, level);
+                highest = highest.max(Some(level));
                 let Some(covering) = covering else { continue };
                 cover.crossed += counted(triangle.copies);
                 cover.signed += sign_counted(covering.sign) * triangle.copies as i32;
@@ -111,6 +120,7 @@ impl TileCaster<'_> {
                 };
                 let (nearer, level) = found.precedes(best, &ray, same_plane);
                 count(levels, level);
+                highest = highest.max(Some(level));
                 if nearer {
                     nearest = Some(found);
                 }
@@ -120,6 +130,7 @@ impl TileCaster<'_> {
                 _ => f64::INFINITY,
             }
         });
+        count_pixel(levels, highest);
         (nearest.map(|mut best| visible(view, &ray, &mut best)), cover)
     }
 }
@@ -157,6 +168,15 @@ fn count(levels: &mut LevelCounts, level: Level) {
         Level::Single => levels.single += 1,
         Level::Double => levels.double += 1,
         Level::Exact => levels.exact += 1,
+    }
+}
+
+fn count_pixel(levels: &mut LevelCounts, highest: Option<Level>) {
+    match highest {
+        None => {}
+        Some(Level::Single) => levels.pixels_single += 1,
+        Some(Level::Double) => levels.pixels_double += 1,
+        Some(Level::Exact) => levels.pixels_exact += 1,
     }
 }
 

@@ -30,9 +30,9 @@ impl Facing {
 pub enum Level {
     /// Certified by an f32 filter.
     Single = 0,
-    /// Certified by an f64 filter.
+    /// Certified by an f64 filter, or computed in f64 without any rounding.
     Double = 1,
-    /// Decided in exact arithmetic, or a tie.
+    /// Decided in arithmetic beyond f64, or a tie, however it was found.
     Exact = 2,
 }
 
@@ -72,16 +72,26 @@ pub struct Cover {
     pub signed: i32,
 }
 
-/// How many decisions each level of arithmetic took, coverage and depth together.
+/// How many decisions each level of arithmetic took, coverage and depth together, and how many
+/// pixels needed no more than it. A decision counts at the level whose arithmetic ended it: an
+/// equality that f64 finds without any rounding is a `double`, and so is an order in a plane that
+/// an earlier pixel found to be shared.
 /// They depend on the order of the work and are reported, never stored in a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct LevelCounts {
     /// Decisions that an f32 filter certified.
     pub single: u64,
-    /// Decisions that an f64 filter certified.
+    /// Decisions that an f64 filter certified, or f64 without any rounding.
     pub double: u64,
-    /// Decisions that exact arithmetic took.
+    /// Decisions that took arithmetic beyond f64.
     pub exact: u64,
+    /// Pixels at which f32 made every decision. Pixels without any decision count nowhere; a path
+    /// that does not work pixel by pixel leaves these three 0.
+    pub pixels_single: u64,
+    /// Pixels whose highest level was f64.
+    pub pixels_double: u64,
+    /// Pixels at which some decision took arithmetic beyond f64.
+    pub pixels_exact: u64,
 }
 
 impl LevelCounts {
@@ -90,6 +100,9 @@ impl LevelCounts {
         self.single += other.single;
         self.double += other.double;
         self.exact += other.exact;
+        self.pixels_single += other.pixels_single;
+        self.pixels_double += other.pixels_double;
+        self.pixels_exact += other.pixels_exact;
     }
 }
 

@@ -4,12 +4,14 @@
 //! ulps wide, and the exact sign of the depth polynomial F. All t here are those of the scaled ray.
 
 use super::coverage::Covering;
-use super::exact::{self, Vertices};
+use super::exact::{self, Signed, Vertices};
 use super::filter::{Bounded, U};
+use super::memo::SamePlane;
 use super::pair::{PairVector, triple_product};
 use super::ray::Ray;
+use super::unrounded;
 use crate::accel::LeafTriangle;
-use crate::mesh::{Barycentric, TriangleId};
+use crate::mesh::Barycentric;
 use crate::mutant::{self, Mutant};
 use crate::visibility::Level;
 
@@ -33,9 +35,6 @@ pub(super) struct Surface {
     /// W_i/ΣW.
     pub(super) barycentric: Barycentric,
 }
-
-/// Two triangles of one plane, lower id first: the last pair that exact arithmetic found.
-pub(super) type SamePlane = Option<[TriangleId; 2]>;
 
 impl Candidate {
     pub(super) fn new(ray: &Ray, triangle: &LeafTriangle, covering: Covering) -> Self {
@@ -72,7 +71,7 @@ impl Candidate {
         &mut self,
         other: &mut Self,
         ray: &Ray,
-        same_plane: &mut SamePlane,
+        same_plane: &mut SamePlane<'_>,
     ) -> (bool, Level) {
         if let Some(nearer) = self.planted_order(other, ray) {
             return (nearer, Level::Double);
@@ -82,29 +81,33 @@ impl Candidate {
         }
         let ids = [self.triangle.id, other.triangle.id];
         let lower_id = (ids[0] < ids[1]) != mutant::is(Mutant::LastIdInPlane);
-        let pair = [ids[0].min(ids[1]), ids[0].max(ids[1])];
-        if *same_plane == Some(pair) {
+        // Known to lie in one plane: no arithmetic beyond the bounds above.
+        if same_plane.knows(ids[0], ids[1]) {
             self.shared = true;
             other.shared = true;
-            return (lower_id, Level::Exact);
+            return (lower_id, Level::Double);
         }
         self.narrow(ray);
         other.narrow(ray);
         if let Some(nearer) = separated(self.t, other.t) {
             return (nearer, Level::Double);
         }
-        let f = exact::depth_sign(
-            ray,
-            (&vertices(&self.triangle), self.covering.sign),
-            (&vertices(&other.triangle), other.covering.sign),
-        );
+        let [a, b] = [vertices(&self.triangle), vertices(&other.triangle)];
+        let (a, b) = ((&a, self.covering.sign), (&b, other.covering.sign));
+        let (f, level) = match unrounded::depth_sign(ray, a, b) {
+            Some(f) => (f, Level::Double),
+            None if same_plane.learns(ids[0], ids[1]) => {
+                (Signed { sign: 0, zero: true }, Level::Double)
+            }
+            None => (exact::depth_sign(ray, a, b), Level::Exact),
+        };
         self.shared |= f.zero;
         other.shared |= f.zero;
         if f.sign == 0 {
-            *same_plane = Some(pair);
+            same_plane.remember(ids[0], ids[1]);
         }
         let by_id = f.sign == 0 || (f.zero && mutant::is(Mutant::LowestIdFirst));
-        (if by_id { lower_id } else { f.sign < 0 }, Level::Exact)
+        (if by_id { lower_id } else { f.sign < 0 }, level)
     }
 
     /// How a planted mistake orders the two.
@@ -177,7 +180,8 @@ pub(super) fn surface(ray: &Ray, v: &Vertices) -> Surface {
     let w: [f64; 3] =
         std::array::from_fn(|i| match triple_product(&d, &a[(i + 1) % 3], &edges[i]) {
             Some(value) => value.abs(),
-            None => exact::edge_magnitude(ray, v, i),
+            None => unrounded::edge_value(ray, v, i)
+                .map_or_else(|| exact::edge_magnitude(ray, v, i), f64::abs),
         });
     let plane = match triple_product(&edges[1], &edges[2], &a[0]) {
         Some(value) => value.abs(),

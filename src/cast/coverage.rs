@@ -1,11 +1,16 @@
 //! Whether a triangle covers a sample: V ≠ 0 and sgn*(W_i) = sgn V for i = 0, 1, 2.
 //!
-//! The f64 filter decides almost always; what it leaves open goes to expansions. The answer, its
+//! Three levels, each for what the one before leaves open: the f32 filter, which turns most
+//! triangles away; f64, by its filter or because nothing rounded; expansions. The answer, its
 //! level and the edge flag depend on the triangle and the sample only.
 
+use super::candidate;
 use super::exact::{self, Vertices};
 use super::filter::{Bounded, Relative};
 use super::ray::Ray;
+use super::single::{self, ShearedRay};
+use super::unrounded;
+use crate::accel::LeafTriangle;
 use crate::mutant::{self, Mutant};
 use crate::visibility::Level;
 
@@ -27,7 +32,20 @@ pub(super) type Decision = (Option<Covering>, Level);
 
 /// Whether the triangle covers the ray's sample.
 #[inline(always)]
-pub(super) fn decide(ray: &Ray, vertices: &Vertices) -> Decision {
+pub(super) fn decide(ray: &Ray, sheared: &ShearedRay, triangle: &LeafTriangle) -> Decision {
+    match sheared.edges(triangle) {
+        single::Edges::Apart => (None, Level::Single),
+        single::Edges::Agree(sign) => {
+            let edges = Edges { sign, level: Level::Single, on_edge: false };
+            let vertices = candidate::vertices(triangle);
+            with_plane(ray, &vertices, &Relative::new(ray, &vertices), edges)
+        }
+        single::Edges::Open => decide_in_double(ray, &candidate::vertices(triangle)),
+    }
+}
+
+/// The decision without the f32 filter.
+fn decide_in_double(ray: &Ray, vertices: &Vertices) -> Decision {
     let relative = Relative::new(ray, vertices);
     let (w, bound) = relative.edge_functions(ray);
     let positive = w.map(|w| w > bound);
@@ -51,7 +69,8 @@ struct Edges {
     on_edge: bool,
 }
 
-/// Some edge function is within its crude bound of 0: tight bound, then exact sign, edge by edge.
+/// Some edge function is within its crude bound of 0: tight bound, then its sign in f64 if nothing
+/// rounds, then in expansions, edge by edge.
 #[cold]
 fn decide_near_edges(ray: &Ray, vertices: &Vertices, relative: &Relative, w: [f64; 3]) -> Decision {
     let signs: [Option<i8>; 3] = std::array::from_fn(|i| {
@@ -66,8 +85,10 @@ fn decide_near_edges(ray: &Ray, vertices: &Vertices, relative: &Relative, w: [f6
             if mutant::is(Mutant::SignBit) && w[i] == 0.0 {
                 return if w[i].is_sign_negative() { -1 } else { 1 };
             }
-            let signed = exact::edge_sign(ray, vertices, i);
-            edges.level = Level::Exact;
+            let signed = unrounded::edge_sign(ray, vertices, i).unwrap_or_else(|| {
+                edges.level = Level::Exact;
+                exact::edge_sign(ray, vertices, i)
+            });
             edges.on_edge |= signed.zero;
             if signed.zero && mutant::is(Mutant::InclusiveEdges) {
                 return exact::plane_sign(ray, vertices);
@@ -87,12 +108,15 @@ fn decide_near_edges(ray: &Ray, vertices: &Vertices, relative: &Relative, w: [f6
 }
 
 /// The three signs agree; the sign of V must too. It is opposite for a triangle behind the eye and
-/// 0 for one that the eye lies on.
+/// 0 for one that the eye lies on. No level below f64 has it, because depth needs it in f64.
 fn with_plane(ray: &Ray, vertices: &Vertices, relative: &Relative, edges: Edges) -> Decision {
     let plane_and_speed = relative.plane_and_speed(ray);
     let (sign, level) = match plane_and_speed[0].sign() {
-        Some(sign) => (sign, edges.level),
-        None => (exact::plane_sign(ray, vertices), Level::Exact),
+        Some(sign) => (sign, edges.level.max(Level::Double)),
+        None => match unrounded::plane_sign(ray, vertices) {
+            Some(sign) => (sign, edges.level.max(Level::Double)),
+            None => (exact::plane_sign(ray, vertices), Level::Exact),
+        },
     };
     if sign != edges.sign && !planted_agreement(sign) || planted_epsilon(plane_and_speed[1]) {
         return (None, level);

@@ -6,6 +6,9 @@ use super::exact;
 use super::filter::Relative;
 use super::pair::{PairVector, triple_product};
 use super::ray::Ray;
+use super::single::ShearedRay;
+use crate::accel::LeafTriangle;
+use crate::mesh::TriangleId;
 use dashu_int::IBig;
 use proptest::prelude::*;
 
@@ -69,6 +72,17 @@ fn by_integers(ray: &Ray, v: &[[f64; 3]; 3], direction: [f64; 3]) -> ([IBig; 3],
     )
 }
 
+/// The triangle as the tree holds it; its coordinates must be f32.
+fn leaf(v: &[[f64; 3]; 3]) -> LeafTriangle {
+    let vertices = v.map(|vertex| {
+        vertex.map(|c| {
+            assert_eq!(f64::from(c as f32), c);
+            c as f32
+        })
+    });
+    LeafTriangle { vertices, id: TriangleId::new(0), copies: 1 }
+}
+
 fn first_nonzero(signs: [i8; 3]) -> i8 {
     signs.into_iter().find(|&sign| sign != 0).unwrap_or(0)
 }
@@ -119,7 +133,9 @@ proptest! {
             std::array::from_fn(|i| first_nonzero([sign_of(&w[i]), sign_of(&wx[i]), sign_of(&wy[i])]));
         let covered = plane != IBig::ZERO && signs == [sign_of(&plane); 3];
 
-        let (covering, _) = coverage::decide(&ray, &v);
+        let sheared = ShearedRay::new(&ray);
+        let triangle = leaf(&v);
+        let (covering, _) = coverage::decide(&ray, &sheared, &triangle);
         prop_assert_eq!(covering.is_some(), covered);
         if let Some(covering) = covering {
             prop_assert_eq!(covering.sign, sign_of(&plane));
@@ -171,7 +187,7 @@ proptest! {
     /// The surface of a covering triangle: bounds of t that hold, weights good to 9u.
     #[test]
     fn surfaces_are_certain((ray, v) in aimed()) {
-        if coverage::decide(&ray, &v).0.is_none() {
+        if coverage::decide(&ray, &ShearedRay::new(&ray), &leaf(&v)).0.is_none() {
             return Ok(());
         }
         let (w, plane) = by_integers(&ray, &v, ray.directions[0]);
