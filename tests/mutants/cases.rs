@@ -165,16 +165,21 @@ fn mirrored_camera() -> Scene {
     Scene::from_triangles(camera.expect("a mirrored camera"), &[UPPER])
 }
 
-/// A slanted triangle and another whose corners are one ulp nearer, in both orders; coordinates
-/// of 24 bits, because products of short ones are exact in f32 too.
+/// Slanted triangles, each with another whose corners are one ulp nearer, the far one first;
+/// coordinates of 24 bits, because products of short ones are exact in f32 too. V is one number per
+/// triangle, so that one pair may be in order by luck.
 fn slanted_one_ulp_apart() -> Vec<Scene> {
-    let far: Triangle = [
-        [-4000.123, -3900.771, 731.917],
-        [4100.337, -3700.913, 1203.129],
-        [33.717, 5200.939, 911.3],
-    ];
-    let near = far.map(|[x, y, z]| [x, y, z.next_down()]);
-    [[far, near], [near, far]].map(|sheets| standard_scene(&sheets)).into()
+    let mut random = Sequence(3);
+    let scene = |_| {
+        let corners = [[-4000.0, -4000.0], [4000.0, -4000.0], [0.0, 5000.0]];
+        let far: Triangle = corners.map(|[x, y]: [f64; 2]| {
+            [x + 90.0 * random.next(), y + 90.0 * random.next(), 700.0 + 600.0 * random.next()]
+                .map(|c| c as f32)
+        });
+        let near = far.map(|[x, y, z]| [x, y, z.next_down()]);
+        standard_scene(&[far, near])
+    };
+    (0..8).map(scene).collect()
 }
 
 /// Triangles of the plane x + 2y + 3z = 3·2^22 with corners of 22 bits: V has some 70 bits, so that
