@@ -5,14 +5,14 @@ mod crowds;
 mod golden;
 mod scales;
 
+use crate::support::closed::sphere;
+use crate::support::scenes::{Sequence, Triangle, single_ray};
 use truecast::accel::{Accelerator, BuildPreset};
 use truecast::cast::{cast, cast_with_tiles};
 use truecast::pixel::{Resolution, Window};
 use truecast::scene::Scene;
 use truecast::scene::camera::PinholeCamera;
 use truecast::visibility::{Counting, Level, VisibilityBuffer, Visible};
-
-type Triangle = [[f32; 3]; 3];
 
 /// A scene whose answers a program in rational arithmetic computed.
 #[derive(serde::Deserialize)]
@@ -55,22 +55,6 @@ fn standard_camera(f: f64) -> PinholeCamera {
     let resolution = Resolution::new(17, 17).unwrap();
     PinholeCamera::exact(resolution, [0.0; 3], [-8.5, -8.5, f], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0])
         .unwrap()
-}
-
-/// A camera of one pixel whose sample looks from `eye` along `direction`, exactly.
-fn single_ray(eye: [f64; 3], direction: [f64; 3]) -> PinholeCamera {
-    let largest = direction.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
-    let step = 2.0_f64.powi(largest.log2().floor() as i32 - 2);
-    // The steps span the plane across the largest component.
-    let along = (0..3).find(|&k| direction[k].abs() == largest).unwrap();
-    let axis = |k: usize| std::array::from_fn(|i| if i == k % 3 { step } else { 0.0 });
-    let (dx, dy): ([f64; 3], [f64; 3]) = (axis(along + 1), axis(along + 2));
-    let d0 = std::array::from_fn(|k| direction[k] - 0.5 * dx[k] - 0.5 * dy[k]);
-    let camera = PinholeCamera::exact(Resolution::new(1, 1).unwrap(), eye, d0, dx, dy).unwrap();
-    let exact: [f64; 3] =
-        std::array::from_fn(|k| camera.d0()[k] + 0.5 * camera.dx()[k] + 0.5 * camera.dy()[k]);
-    assert_eq!(exact, direction, "the camera keeps the direction");
-    camera
 }
 
 fn all(scene: &Scene, accelerator: &Accelerator) -> VisibilityBuffer {
@@ -127,54 +111,6 @@ fn assert_finite(buffer: &VisibilityBuffer) {
         assert!((sum - 1.0).abs() <= 2.0_f64.powi(-49), "{visible:?}");
         assert!(visible.barycentric.0.iter().all(|b| b.is_sign_positive()));
         assert!(!visible.tie || visible.level == Level::Exact);
-    }
-}
-
-/// A UV sphere about `center`, closed, counter-clockwise from outside.
-fn sphere(rings: u32, segments: u32, radius: f64, center: [f64; 3]) -> Vec<Triangle> {
-    let vertex = |ring: u32, segment: u32| -> [f32; 3] {
-        let polar = std::f64::consts::PI * f64::from(ring) / f64::from(rings);
-        let around = std::f64::consts::TAU * f64::from(segment % segments) / f64::from(segments);
-        let direction = if ring == 0 || ring == rings {
-            [0.0, 0.0, if ring == 0 { 1.0 } else { -1.0 }]
-        } else {
-            [polar.sin() * around.cos(), polar.sin() * around.sin(), polar.cos()]
-        };
-        // On multiples of 2^-24, so that differences keep a camera's lattice.
-        let grid = f64::from(1 << 24);
-        std::array::from_fn(|k| {
-            (((center[k] + radius * direction[k]) * grid).round() / grid) as f32
-        })
-    };
-    let mut triangles = Vec::new();
-    for ring in 0..rings {
-        for segment in 0..segments {
-            let [a, b] = [vertex(ring, segment), vertex(ring, segment + 1)];
-            let [c, d] = [vertex(ring + 1, segment), vertex(ring + 1, segment + 1)];
-            if ring > 0 {
-                triangles.push([a, c, b]);
-            }
-            if ring + 1 < rings {
-                triangles.push([b, c, d]);
-            }
-        }
-    }
-    triangles
-}
-
-/// A small pseudo-random sequence in [0, 1).
-struct Sequence(u64);
-
-impl Sequence {
-    fn next(&mut self) -> f64 {
-        self.0 =
-            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
-        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
-    }
-
-    /// A multiple of 2^-22.
-    fn step(&mut self) -> f64 {
-        (self.next() * f64::from(1 << 22)).floor() / f64::from(1 << 22)
     }
 }
 

@@ -4,6 +4,8 @@
 mod arbiter;
 // The ray caster on golden and hard scenes: all build presets, tile sizes, threads.
 mod cast;
+// The hard cases by their names, through every configuration and before the arbiter.
+mod catalogue;
 // The check finds damaged answers and blames the right path.
 mod check_can_fail;
 // The program as a user meets it.

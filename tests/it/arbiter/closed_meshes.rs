@@ -1,7 +1,8 @@
 //! On a closed mesh the signed count is the winding number of the eye, whatever the sample meets.
 
 use super::answers;
-use crate::support::scenes::{Triangle, integer_chaos};
+use crate::support::closed::integer_chaos;
+use crate::support::scenes::Triangle;
 use truecast::pixel::Resolution;
 use truecast::scene::Scene;
 use truecast::scene::camera::PinholeCamera;

@@ -2,8 +2,8 @@
 
 use super::{answers, covered, ids};
 use crate::support::scenes::{
-    Triangle, fan, rectangle, scaled, scaled_camera, single_ray_camera, standard_camera,
-    standard_scene,
+    T_JUNCTION, T_SLIVER, T_VERTEX, Triangle, fan, rectangle, scaled, scaled_camera,
+    single_ray_camera, standard_camera, standard_scene,
 };
 use truecast::exact::{Answer, Arbiter};
 use truecast::pixel::Pixel;
@@ -84,16 +84,9 @@ fn h07_right_and_bottom_edges_do_not() {
     }
 }
 
-/// A vertex M that rounding puts 5.46e-9 below the edge AB, and the triangles around it.
-const A: [f32; 3] = [0.0, 0.0, 1.0];
-const B: [f32; 3] = [1.0, 1.0 / 3.0, 1.0];
-const M: [f32; 3] = [0.3, 0.1, 1.0];
-const T_JUNCTION: [Triangle; 3] =
-    [[A, B, [0.0, 1.0, 1.0]], [A, [1.0, -1.0, 1.0], M], [M, [1.0, -1.0, 1.0], B]];
-
 #[test]
 fn h10_a_gap_at_a_t_junction_is_a_gap() {
-    let (x, y) = (f64::from(M[0]), f64::from(M[1]));
+    let (x, y) = (f64::from(T_VERTEX[0]), f64::from(T_VERTEX[1]));
     assert_eq!(single(&T_JUNCTION, [x, y + 2.73e-9, 1.0]).visible, None);
     for offset in [-1e-3, 1e-3] {
         let answer = single(&T_JUNCTION, [x, y + offset, 1.0]);
@@ -105,8 +98,8 @@ fn h10_a_gap_at_a_t_junction_is_a_gap() {
 #[test]
 fn h13_the_sliver_in_the_gap_is_seen() {
     let mut bridged = T_JUNCTION.to_vec();
-    bridged.push([A, M, B]);
-    let (x, y) = (f64::from(M[0]), f64::from(M[1]));
+    bridged.push(T_SLIVER);
+    let (x, y) = (f64::from(T_VERTEX[0]), f64::from(T_VERTEX[1]));
     let answer = single(&bridged, [x, y + 2.73e-9, 1.0]);
     assert_eq!(answer.visible.map(|surface| surface.triangle.get()), Some(3));
     assert_eq!(answer.cover.crossed, 1);

@@ -1,9 +1,8 @@
 //! The interval test that spares the arbiter most triangles must never change an answer.
 
+use crate::support::closed::integer_chaos;
 use crate::support::golden;
-use crate::support::scenes::{
-    Triangle, fan, integer_chaos, rectangle, scaled_camera, single_ray_camera,
-};
+use crate::support::scenes::{Triangle, fan, rectangle, scaled_camera, single_ray_camera};
 use truecast::exact::Arbiter;
 use truecast::mesh::TriangleId;
 use truecast::pixel::Pixel;

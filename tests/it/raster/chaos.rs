@@ -1,6 +1,7 @@
 //! Random scenes made of structure: small integers, powers of two, copies, shared edges and planes.
 
 use super::{Triangles, assert_is_the_definition, grid_camera};
+use crate::support::closed::contains;
 use truecast::pixel::Resolution;
 use truecast::scene::Scene;
 use truecast::scene::camera::PinholeCamera;
@@ -67,26 +68,6 @@ fn closed_meshes_have_one_signed_count() {
     assert!(on_surface < 20, "{on_surface} of 60 eyes lie on the surface");
     // The structure must bite: winners on ties, and samples that f64 could not decide.
     assert!(ties > 100 && exact > 1000, "{ties} ties, {exact} exact decisions in {samples}");
-}
-
-/// Whether a closed triangle of small integers contains a point of small quarters.
-fn contains(triangle: &[[f32; 3]; 3], point: [f64; 3]) -> bool {
-    let a = triangle.map(|v| -> [i64; 3] {
-        std::array::from_fn(|k| (4.0 * (f64::from(v[k]) - point[k])) as i64)
-    });
-    let dot = |p: [i64; 3], q: [i64; 3]| p[0] * q[0] + p[1] * q[1] + p[2] * q[2];
-    let cross = |p: [i64; 3], q: [i64; 3]| {
-        [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]]
-    };
-    let c = [cross(a[1], a[2]), cross(a[2], a[0]), cross(a[0], a[1])];
-    let normal: [i64; 3] = std::array::from_fn(|k| c[0][k] + c[1][k] + c[2][k]);
-    if normal == [0; 3] {
-        // Collinear corners: on one of the three segments.
-        return [(0, 1), (1, 2), (2, 0)]
-            .iter()
-            .any(|&(i, j)| cross(a[i], a[j]) == [0; 3] && dot(a[i], a[j]) <= 0);
-    }
-    dot(a[0], c[0]) == 0 && c.iter().all(|&c| dot(c, normal) >= 0)
 }
 
 /// Scenes of grid-aligned, tiny, huge, copied and coplanar triangles against the definition.

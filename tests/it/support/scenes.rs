@@ -32,6 +32,22 @@ pub(crate) fn single_ray_camera(eye: [f64; 3], direction: [f64; 3]) -> PinholeCa
     PinholeCamera::exact(Resolution::new(1, 1).unwrap(), eye, d0, dx, dy).unwrap()
 }
 
+/// A camera of one pixel whose sample looks from `eye` along `direction`, exactly.
+pub(crate) fn single_ray(eye: [f64; 3], direction: [f64; 3]) -> PinholeCamera {
+    let largest = direction.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
+    let step = 2.0_f64.powi(largest.log2().floor() as i32 - 2);
+    // The steps span the plane across the largest component.
+    let along = (0..3).find(|&k| direction[k].abs() == largest).unwrap();
+    let axis = |k: usize| std::array::from_fn(|i| if i == k % 3 { step } else { 0.0 });
+    let (dx, dy): ([f64; 3], [f64; 3]) = (axis(along + 1), axis(along + 2));
+    let d0 = std::array::from_fn(|k| direction[k] - 0.5 * dx[k] - 0.5 * dy[k]);
+    let camera = PinholeCamera::exact(Resolution::new(1, 1).unwrap(), eye, d0, dx, dy).unwrap();
+    let exact: [f64; 3] =
+        std::array::from_fn(|k| camera.d0()[k] + 0.5 * camera.dx()[k] + 0.5 * camera.dy()[k]);
+    assert_eq!(exact, direction, "the camera keeps the direction");
+    camera
+}
+
 /// Triangles seen by G(8).
 pub(crate) fn standard_scene(triangles: &[Triangle]) -> Scene {
     Scene::from_triangles(standard_camera(8.0), triangles)
@@ -56,34 +72,6 @@ pub(crate) fn scaled(triangles: &[Triangle], factor: f32) -> Vec<Triangle> {
     triangles.iter().map(|triangle| triangle.map(|v| v.map(|c| c * factor))).collect()
 }
 
-/// Closed spheres of four rings of five whose corners are integers in −3…3, in no sensible place:
-/// folded, pierced, with faces edge-on and without area, yet closed as a list of corners.
-pub(crate) fn integer_chaos(seed: u64) -> Vec<Triangle> {
-    let mut state = seed.wrapping_mul(0x9E37_79B9_7F4A_7C15) | 1;
-    let mut corner = || {
-        [0; 3].map(|_| {
-            // Xorshift: any fixed sequence will do.
-            state ^= state << 13;
-            state ^= state >> 7;
-            state ^= state << 17;
-            (state % 7) as f32 - 3.0
-        })
-    };
-    let poles = [corner(), corner()];
-    let rings: Vec<[[f32; 3]; 5]> = (0..4).map(|_| [0; 5].map(|_| corner())).collect();
-    let mut triangles = Vec::new();
-    for k in 0..5 {
-        let next = (k + 1) % 5;
-        triangles.push([poles[0], rings[0][k], rings[0][next]]);
-        for pair in rings.windows(2) {
-            triangles.push([pair[0][k], pair[1][k], pair[1][next]]);
-            triangles.push([pair[0][k], pair[1][next], pair[0][next]]);
-        }
-        triangles.push([rings[3][k], poles[1], rings[3][next]]);
-    }
-    triangles
-}
-
 /// G(f) with `side` × `side` pixels (odd): the middle pixel looks along (0, 0, f).
 pub(crate) fn grid_camera(side: u32, f: f64) -> PinholeCamera {
     let corner = -f64::from(side) / 2.0;
@@ -104,4 +92,40 @@ pub(crate) fn pixel_grid(side: u32, cell: u32, z: f32) -> Vec<Triangle> {
             rectangle([x, y].map(|c| c as f32), [x + cell, y + cell].map(|c| c as f32), z)
         })
         .collect()
+}
+
+/// The triangles of a scene, in the order of ids.
+pub(crate) fn triangles_of(scene: &Scene) -> Vec<Triangle> {
+    scene.mesh.ids().map(|id| scene.mesh.triangle(id)).collect()
+}
+
+/// The T-vertex M of [`T_JUNCTION`]: rounding puts it 5.46e-9 below the edge from A to B.
+pub(crate) const T_VERTEX: [f32; 3] = [0.3, 0.1, 1.0];
+const A: [f32; 3] = [0.0, 0.0, 1.0];
+const B: [f32; 3] = [1.0, 1.0 / 3.0, 1.0];
+/// One triangle on the far side of AB, two on the near side that meet in M: a mesh with a gap.
+pub(crate) const T_JUNCTION: [Triangle; 3] =
+    [[A, B, [0.0, 1.0, 1.0]], [A, [1.0, -1.0, 1.0], T_VERTEX], [T_VERTEX, [1.0, -1.0, 1.0], B]];
+/// The sliver that closes the gap.
+pub(crate) const T_SLIVER: Triangle = [A, T_VERTEX, B];
+
+/// A small pseudo-random sequence in [0, 1).
+pub(crate) struct Sequence(pub(crate) u64);
+
+impl Sequence {
+    pub(crate) fn next(&mut self) -> f64 {
+        self.0 =
+            self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1_u64 << 53) as f64
+    }
+
+    /// An integer in 0…count − 1.
+    pub(crate) fn below(&mut self, count: usize) -> usize {
+        (self.next() * count as f64) as usize
+    }
+
+    /// A multiple of 2^-22.
+    pub(crate) fn step(&mut self) -> f64 {
+        (self.next() * f64::from(1 << 22)).floor() / f64::from(1 << 22)
+    }
 }

@@ -1,0 +1,124 @@
+//! What it means that answers agree: bits within a path, statements between the paths, and truth
+//! before the arbiter.
+
+use rayon::prelude::*;
+use truecast::check::tolerance::weights_agree;
+use truecast::exact::Arbiter;
+use truecast::pixel::Pixel;
+use truecast::scene::Scene;
+use truecast::visibility::{Level, VisibilityBuffer, Visible};
+
+/// Most pixels × triangles for which the arbiter is asked about every pixel: its interval test
+/// takes about 20 ns for each, so 0.1 s.
+const ARBITER_LIMIT: usize = 1 << 22;
+
+/// Pixels that the arbiter is asked about beyond that: half beside id borders, half anywhere.
+const ARBITER_SAMPLE: usize = 64;
+
+/// Largest relative width of a depth interval, the visibility buffer's contract.
+const DEPTH_WIDTH: f64 = 1.0 / (1_u64 << 40) as f64;
+
+/// Largest error of the sum of three weights, each good to a few 2^-50 of itself.
+const WEIGHT_SUM: f64 = 1.0 / (1_u64 << 47) as f64;
+
+/// Same answer, bit for bit. Levels of work may differ; counts are compared where both have them.
+pub(super) fn assert_same_bits(
+    name: &str,
+    circumstance: &str,
+    reference: &VisibilityBuffer,
+    found: &VisibilityBuffer,
+) {
+    assert_eq!(reference.window, found.window, "{name}: {circumstance}");
+    for (index, pair) in reference.visible.iter().zip(&found.visible).enumerate() {
+        let place = reference.window.pixel(index);
+        assert_eq!(pair.0, pair.1, "{name}: {circumstance}: {place:?}");
+        let bits = [pair.0, pair.1].map(|visible| visible.as_ref().map(bits));
+        assert_eq!(bits[0], bits[1], "{name}: {circumstance}: {place:?}");
+    }
+    if found.cover.is_some() {
+        assert_eq!(reference.cover, found.cover, "{name}: {circumstance}");
+    }
+}
+
+fn bits(visible: &Visible) -> [u64; 5] {
+    let [b0, b1, b2] = visible.barycentric.0;
+    [b0, b1, b2, visible.t_lo, visible.t_hi].map(f64::to_bits)
+}
+
+/// FIN: depths are positive, finite and narrow intervals, weights are finite, not negative, and
+/// sum to 1.
+pub(super) fn assert_finite(name: &str, buffer: &VisibilityBuffer) {
+    for (index, visible) in buffer.visible.iter().enumerate() {
+        let Some(visible) = visible else { continue };
+        let place = format!("{name} at {:?}: {visible:?}", buffer.window.pixel(index));
+        // Written so that NaN fails.
+        assert!(0.0 < visible.t_lo && visible.t_lo <= visible.t_hi, "{place}");
+        assert!(visible.t_hi.is_finite(), "{place}");
+        assert!(visible.t_hi - visible.t_lo <= visible.t_hi * DEPTH_WIDTH, "{place}");
+        let weights = visible.barycentric.0;
+        assert!(weights.iter().all(|&b| (0.0..=1.0 + WEIGHT_SUM).contains(&b)), "{place}");
+        assert!((weights.iter().sum::<f64>() - 1.0).abs() <= WEIGHT_SUM, "{place}");
+        assert!(!visible.tie || visible.level == Level::Exact, "{place}");
+    }
+}
+
+/// The two paths say the same: id, facing, tie and counts equal, depth intervals overlap, weights
+/// agree.
+pub(super) fn assert_paths_agree(name: &str, cast: &VisibilityBuffer, raster: &VisibilityBuffer) {
+    for (index, (a, b)) in cast.visible.iter().zip(&raster.visible).enumerate() {
+        let place = format!("{name} at {:?}: {a:?}, {b:?}", cast.window.pixel(index));
+        let statement = |v: &Visible| (v.triangle, v.facing, v.tie);
+        assert_eq!(a.as_ref().map(statement), b.as_ref().map(statement), "{place}");
+        let (Some(a), Some(b)) = (a, b) else { continue };
+        assert!(a.t_lo <= b.t_hi && b.t_lo <= a.t_hi, "{place}");
+        for (p, q) in a.barycentric.0.into_iter().zip(b.barycentric.0) {
+            assert!(weights_agree(p, q), "{place}");
+        }
+    }
+    assert_eq!(cast.cover, raster.cover, "{name}");
+}
+
+/// The arbiter says the same at every pixel that it is asked about.
+pub(super) fn assert_arbiter_agrees(name: &str, scene: &Scene, answer: &VisibilityBuffer) {
+    let arbiter = Arbiter::new(scene);
+    let cover = answer.cover.as_ref().expect("the answer has counts");
+    asked_pixels(scene, answer).into_par_iter().for_each(|pixel| {
+        let truth = arbiter.answer(pixel);
+        let found = answer.at(pixel);
+        let place = format!("{name} at {pixel:?}: {found:?}, in truth {truth:?}");
+        assert_eq!(cover[answer.window.index(pixel)], truth.cover, "{place}");
+        assert_eq!(found.is_some(), truth.visible.is_some(), "{place}");
+        let (Some(found), Some(truth)) = (found, truth.visible) else { return };
+        assert_eq!(found.triangle, truth.triangle, "{place}");
+        assert_eq!((found.facing, found.tie), (truth.facing, truth.tie), "{place}");
+        // Both intervals hold the exact t.
+        assert!(found.t_lo <= truth.t_hi && truth.t_lo <= found.t_hi, "{place}");
+        for (p, q) in found.barycentric.0.into_iter().zip(truth.barycentric.0) {
+            assert!(weights_agree(p, q), "{place}");
+        }
+    });
+}
+
+/// Every pixel where that is affordable, else a fixed sample.
+fn asked_pixels(scene: &Scene, answer: &VisibilityBuffer) -> Vec<Pixel> {
+    let all: Vec<Pixel> = answer.window.pixels().collect();
+    if all.len() * scene.mesh.len() <= ARBITER_LIMIT {
+        return all;
+    }
+    let id = |pixel: Pixel| answer.at(pixel).map(|visible| visible.triangle);
+    let beside_a_border = |pixel: &Pixel| {
+        let Pixel { x, y } = *pixel;
+        [Pixel { x: x + 1, y }, Pixel { x, y: y + 1 }]
+            .into_iter()
+            .any(|next| answer.window.contains(next) && id(next) != id(*pixel))
+    };
+    let borders: Vec<Pixel> = all.iter().copied().filter(beside_a_border).collect();
+    let mut asked = spread(&borders, ARBITER_SAMPLE / 2);
+    asked.extend(spread(&all, ARBITER_SAMPLE / 2));
+    asked
+}
+
+/// About `count` of the pixels, evenly spread.
+fn spread(pixels: &[Pixel], count: usize) -> Vec<Pixel> {
+    pixels.iter().copied().step_by(pixels.len().div_ceil(count).max(1)).collect()
+}

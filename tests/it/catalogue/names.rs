@@ -1,0 +1,75 @@
+//! No case is missing: the names of the catalogue against the tests in the sources.
+//!
+//! Cases D.1 to D.3 are tests of this folder; those of D.4 to D.6, traversal, scale and
+//! transformations, belong to `scale`.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Coverage ties.
+const COVERAGE: &str = "h01 h02 h03 h04 h05 h06 h07 h08 h09 h10 h11 h12 h13 h14 h15 h16 h17 h18";
+/// Depth.
+const DEPTH: &str = "h20 h21 h22 h23 h24 h25 h26 h27 h28 h29 h30 h31";
+/// The eye and what is near it.
+const EYE: &str = "h40 h41 h42 h43 h44 h45 h46 h47 h48 h49 h4a h4b";
+
+/// The lists that are complete, and the sources that hold their tests: beginnings of paths under
+/// `tests/it`.
+const COMPLETE: &[(&str, &[&str])] =
+    &[(COVERAGE, &["catalogue"]), (DEPTH, &["catalogue"]), (EYE, &["catalogue"])];
+
+#[test]
+fn every_case_is_here() {
+    let tests_folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it");
+    for (cases, places) in COMPLETE {
+        let found: BTreeSet<String> = rust_files(&tests_folder)
+            .iter()
+            .filter(|path| {
+                let inside = path.strip_prefix(&tests_folder).unwrap().to_str().unwrap();
+                places.iter().any(|place| inside.starts_with(place))
+            })
+            .flat_map(|path| cases_tested(&fs::read_to_string(path).unwrap()))
+            .collect();
+        let missing: Vec<&str> = cases.split(' ').filter(|case| !found.contains(*case)).collect();
+        assert!(missing.is_empty(), "no test is named after {missing:?}");
+    }
+}
+
+/// The cases that the tests of a source are named after: `h51_h52_boxes` is of two.
+fn cases_tested(source: &str) -> Vec<String> {
+    let mut cases = Vec::new();
+    for (attribute, next) in source.lines().zip(source.lines().skip(1)) {
+        let Some(name) = next.trim().strip_prefix("fn ").filter(|_| attribute.trim() == "#[test]")
+        else {
+            continue;
+        };
+        cases.extend(name.split('_').take_while(|part| is_case(part)).map(str::to_owned));
+    }
+    cases
+}
+
+fn is_case(part: &str) -> bool {
+    let [b'h', section @ b'0'..=b'8', number] = part.as_bytes() else { return false };
+    section.is_ascii_digit() && (number.is_ascii_digit() || (b'a'..=b'b').contains(number))
+}
+
+fn rust_files(folder: &Path) -> Vec<PathBuf> {
+    let mut files = Vec::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.is_dir() {
+            files.extend(rust_files(&path));
+        } else if path.extension().is_some_and(|extension| extension == "rs") {
+            files.push(path);
+        }
+    }
+    files
+}
+
+#[test]
+fn only_tests_count_as_cases() {
+    let source = "#[test]\nfn h01_fan() {}\nfn h02_left_out() {}\n#[test]\nfn h51_h4a_both() {}\n\
+                  // #[test]\nfn h03_commented() {}\n#[test]\nfn hub() {}\n";
+    assert_eq!(cases_tested(source), ["h01", "h51", "h4a"]);
+}
