@@ -100,8 +100,8 @@ fn h73_lossy_translation() {
         let buffer = agreed(&Scene::from_triangles(camera, &[triangle]));
         assert_eq!(ids(&buffer), [is_seen.then_some(0)], "{shift:e}");
         if let Some(visible) = buffer.visible[0] {
-            assert_eq!((visible.t_lo, visible.t_hi), (5.0, 5.0));
-            assert_eq!(visible.barycentric.0, [0.5, 0.25, 0.25]);
+            assert!(visible.t_lo <= 5.0 && 5.0 <= visible.t_hi, "{visible:?}");
+            assert!(!visible.tie);
         }
     }
 }
