@@ -28,5 +28,9 @@ mod scene_keys;
 mod scene_load;
 // The scenes that come with the project.
 mod scenes;
+// The stability mask against moved samples and moved vertices.
+mod stability;
 // Golden scenes and builders that several modules use.
 mod support;
+// The rasterizer as graphics processors have it: exactly once, and where it may differ.
+mod watertight;
