@@ -20,13 +20,20 @@ mod image_plane;
 mod resolve;
 mod rows;
 mod span;
+mod stability;
 mod tile;
+mod tile_lists;
+mod watertight;
 
 use crate::pixel::{Window, for_each_tile};
 use crate::scene::Scene;
 use crate::visibility::{Counting, VisibilityBuffer};
 use bins::Bins;
+use bounds::Region;
 use image_plane::ImagePlane;
+
+pub use stability::{STANDARD_HALF_WIDTH, stability, stability_in_tiles};
+pub use watertight::{DEPTH_ERROR, SubpixelBits, rasterize_watertight};
 
 /// Side of a tile, in pixels: its z-buffer (1024 fragments of 32 bytes) fits a first-level cache.
 pub const TILE_SIDE: u32 = 32;
@@ -53,9 +60,9 @@ pub fn rasterize_in_tiles(
     done: &(dyn Fn() + Sync),
 ) -> VisibilityBuffer {
     let plane = ImagePlane::new(&scene.camera);
-    let bins = Bins::new(&plane, &scene.mesh, window, side);
+    let bins = Bins::new(&plane, &scene.mesh, Region::samples(window), side);
     let tiles = for_each_tile(&window.tiles(side), done, |tile| {
-        tile::rasterize_tile(&plane, &scene.mesh, window, &bins, counting, tile)
+        tile::rasterize_tile(&plane, &scene.mesh, &bins, counting, tile)
     });
     VisibilityBuffer::from_tiles(window, counting, tiles)
 }

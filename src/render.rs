@@ -3,11 +3,13 @@
 //! `see` answers which triangle is visible, `shade` gives it radiance, `develop` lays both out as
 //! the planes that files hold. Nothing is decided here: no predicate, no shading term, no format.
 
+mod accuracy;
 mod describe;
 mod develop;
 mod planes;
 pub mod visible;
 
+pub use accuracy::Accuracy;
 pub use describe::describe;
 pub use develop::develop;
 pub use planes::{PlaneGroup, PlaneGroups, UnknownPlane};
@@ -16,7 +18,7 @@ use crate::accel::{Accelerator, BuildPreset};
 use crate::cast::cast;
 use crate::film::Film;
 use crate::pixel::Window;
-use crate::raster::rasterize;
+use crate::raster::{rasterize, rasterize_watertight};
 use crate::scene::Scene;
 use crate::shade::{Effects, Notes, shade};
 use crate::visibility::{Counting, LevelCounts, VisibilityBuffer};
@@ -38,6 +40,9 @@ pub enum VisibilityPath {
 pub struct RenderOptions {
     /// Which path.
     pub path: VisibilityPath,
+    /// How visibility is decided. Only [`Accuracy::Exact`] exists on both paths: any other is
+    /// answered by the path that has it, whatever `path` says.
+    pub accuracy: Accuracy,
     /// Which pixels; the whole frame when `None`.
     pub window: Option<Window>,
     /// Which planes the film gets.
@@ -52,6 +57,7 @@ impl Default for RenderOptions {
     fn default() -> Self {
         Self {
             path: VisibilityPath::default(),
+            accuracy: Accuracy::default(),
             window: None,
             planes: PlaneGroups::standard(),
             preset: BuildPreset::Medium,
@@ -113,13 +119,22 @@ pub fn render(scene: &Scene, options: &RenderOptions, progress: &dyn Progress) -
     let window = options.window.unwrap_or(scene.camera.resolution().window());
     let counting =
         if options.planes.has(PlaneGroup::Cover) { Counting::All } else { Counting::Nearest };
-    let seen = see(scene, options.path, options.preset, window, counting, progress);
+    let seen = match options.accuracy {
+        Accuracy::Exact => see(scene, options.path, options.preset, window, counting, progress),
+        Accuracy::Watertight { subpixel_bits } => {
+            let started = Instant::now();
+            progress.begin("rasterize", window.tiles(crate::raster::TILE_SIDE).len());
+            let done = || progress.step();
+            let buffer = rasterize_watertight(scene, window, subpixel_bits, counting, &done);
+            Seen { buffer, build: Duration::ZERO, visibility: started.elapsed() }
+        }
+    };
     let started = Instant::now();
     progress.begin("shade", window.height() as usize);
     let shaded = shade(scene, &seen.buffer, Effects::of(scene), &|| progress.step());
     let shading = started.elapsed();
     let started = Instant::now();
-    let film = develop(scene, &seen.buffer, &shaded.radiance, &options.planes);
+    let film = develop(scene, &seen.buffer, &shaded.radiance, &options.planes, options.accuracy);
     let developing = started.elapsed();
     let visible = options.listing.map(|listing| {
         list_visible(scene, &seen.buffer, listing, options.path, options.preset, progress)
@@ -145,7 +160,7 @@ pub struct Seen {
     pub visibility: Duration,
 }
 
-/// Asks one path what is visible.
+/// Asks one path what is visible, exactly.
 pub fn see(
     scene: &Scene,
     path: VisibilityPath,

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use truecast::check::foreign::depth::DEPTH_TOLERANCE_RELATIVE;
 use truecast::check::foreign::ids::NOT_FINITE;
 use truecast::pixel::{MAX_SIDE, Resolution};
+use truecast::raster::SubpixelBits;
 use truecast::render::visible::SubsampleGrid;
 
 /// Casts one ray per pixel at a scene of triangle meshes, and proves which triangle is visible.
@@ -46,8 +47,11 @@ pub(super) struct RenderArguments {
     /// How visibility is decided
     #[arg(long, value_enum, default_value_t = AccuracyWord::Exact)]
     pub(super) accuracy: AccuracyWord,
+    /// Bits of the watertight rasterizer's grid below the pixel, 0 to 12 [default: 8]
+    #[arg(long, value_name = "N", value_parser = parse_subpixel_bits)]
+    pub(super) subpixel_bits: Option<SubpixelBits>,
     /// Planes of the EXR: a comma-separated list of rgba, Z, t, P, N, Ns, uv, bary, id, facing,
-    /// cover, verdict; or all [default: all but cover]
+    /// cover, verdict, stable; or all [default: all but cover and stable]
     #[arg(long, value_name = "LIST")]
     pub(super) aov: Option<String>,
     /// Render at this size instead of the scene's
@@ -204,12 +208,13 @@ pub(super) enum PathWord {
     Raster,
 }
 
-/// `double`, `watertight` and `fast` exist to be compared with `exact` and come with that
-/// comparison.
+/// `double` and `fast` exist to be compared with `exact` and come with that comparison.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum AccuracyWord {
     /// Every pixel is the exact answer
     Exact,
+    /// What a graphics processor does: snapped vertices, top-left rule, f32 depth (--path raster)
+    Watertight,
 }
 
 fn parse_size(text: &str) -> Result<Resolution, String> {
@@ -222,6 +227,11 @@ fn parse_size(text: &str) -> Result<Resolution, String> {
 fn parse_subpixel(text: &str) -> Result<SubsampleGrid, String> {
     let side = text.trim().parse().ok();
     side.and_then(SubsampleGrid::new).ok_or_else(|| "expected 2, 4, 8 or 16".to_owned())
+}
+
+fn parse_subpixel_bits(text: &str) -> Result<SubpixelBits, String> {
+    let bits = text.trim().parse().ok().and_then(SubpixelBits::new);
+    bits.ok_or_else(|| format!("expected a whole number from 0 to {}", SubpixelBits::MOST))
 }
 
 fn parse_crop(text: &str) -> Result<[u32; 4], String> {

@@ -4,7 +4,7 @@ use super::arguments::ExplainArguments;
 use super::failure::Failure;
 use super::{OK, output};
 use serde_json::json;
-use truecast::render::describe;
+use truecast::render::{Accuracy, describe};
 use truecast::scene::{Overrides, Scene};
 use truecast::shade;
 
@@ -74,7 +74,7 @@ fn document(arguments: &ExplainArguments, scene: &Scene) -> serde_json::Value {
     json!({
         "schema": "truecast/explain/1",
         "scene": arguments.scene.display().to_string(),
-        "picture": describe(scene),
+        "picture": describe(scene, Accuracy::Exact),
         "lattice_exponent": scene.camera.exponent(),
         "deviation_pixels": scene.camera.deviation_pixels(),
         "triangles": scene.mesh.len(),

@@ -1,6 +1,6 @@
 //! `truecast render`: scene in, pictures out.
 
-use super::arguments::{PathWord, RenderArguments};
+use super::arguments::{AccuracyWord, PathWord, RenderArguments};
 use super::failure::Failure;
 use super::output::{self, Writing};
 use super::progress::Bar;
@@ -13,7 +13,9 @@ use truecast::film::{
 };
 use truecast::pixel::{Resolution, Window};
 use truecast::render::visible::{Listing, SubsampleGrid, to_csv};
-use truecast::render::{Frame, PlaneGroup, PlaneGroups, RenderOptions, VisibilityPath, render};
+use truecast::render::{
+    Accuracy, Frame, PlaneGroup, PlaneGroups, RenderOptions, VisibilityPath, render,
+};
 use truecast::scene::{Overrides, Scene};
 use truecast::shade::Notes;
 
@@ -28,6 +30,7 @@ struct Written {
 }
 
 pub(super) fn run(arguments: &RenderArguments, writing: &Writing) -> Result<u8, Failure> {
+    let accuracy = accuracy(arguments)?;
     let targets = targets(arguments)?;
     let planes = planes(arguments, &targets)?;
     if let Some(list) = &arguments.visible {
@@ -45,6 +48,7 @@ pub(super) fn run(arguments: &RenderArguments, writing: &Writing) -> Result<u8, 
             PathWord::Cast => VisibilityPath::Cast,
             PathWord::Raster => VisibilityPath::Raster,
         },
+        accuracy,
         window: window(arguments, scene.camera.resolution())?,
         planes,
         listing: arguments
@@ -68,7 +72,7 @@ pub(super) fn run(arguments: &RenderArguments, writing: &Writing) -> Result<u8, 
     let total = started.elapsed();
     if arguments.json {
         let times = [("load", load_time), ("write", write_time), ("total", total)];
-        output::print_json(&document(arguments, &scene, &frame, &written, &times));
+        output::print_json(&document(arguments, &options, &scene, &frame, &written, &times));
     } else if !arguments.quiet {
         output::print(&summary(arguments.subpixel, &scene, &frame, &written, total));
     }
@@ -83,6 +87,23 @@ fn load(arguments: &RenderArguments) -> Result<Scene, Failure> {
             Scene::from_toml(DEFAULT_SCENE, Path::new("default.toml"), Path::new("."), &overrides)?
         }
     })
+}
+
+/// How visibility is decided; refuses what the path does not have.
+fn accuracy(arguments: &RenderArguments) -> Result<Accuracy, Failure> {
+    match (arguments.accuracy, arguments.path, arguments.subpixel_bits) {
+        (AccuracyWord::Exact, _, None) => Ok(Accuracy::Exact),
+        (AccuracyWord::Exact, _, Some(_)) => Err(Failure::usage(
+            "--subpixel-bits belongs to --accuracy watertight; the exact answer snaps nothing"
+                .to_owned(),
+        )),
+        (AccuracyWord::Watertight, PathWord::Raster, bits) => {
+            Ok(Accuracy::Watertight { subpixel_bits: bits.unwrap_or_default() })
+        }
+        (AccuracyWord::Watertight, PathWord::Cast, _) => Err(Failure::usage(
+            "--accuracy watertight exists on --path raster, not on --path cast".to_owned(),
+        )),
+    }
 }
 
 /// The output files, each with its format, refused early when they cannot be written.
@@ -252,12 +273,13 @@ fn summary(
 
 fn document(
     arguments: &RenderArguments,
+    options: &RenderOptions,
     scene: &Scene,
     frame: &Frame,
     written: &[Written],
     times: &[(&str, Duration)],
 ) -> serde_json::Value {
-    let window = frame.film.window;
+    let (accuracy, window) = (options.accuracy, frame.film.window);
     let stages = [
         ("build", frame.times.build),
         ("visibility", frame.times.visibility),
@@ -285,7 +307,11 @@ fn document(
         "schema": "truecast/render/1",
         "scene": arguments.scene.as_ref().map(|path| path.display().to_string()),
         "path": match arguments.path { PathWord::Cast => "cast", PathWord::Raster => "raster" },
-        "accuracy": "exact",
+        "accuracy": accuracy.name(),
+        "subpixel_bits": match accuracy {
+            Accuracy::Exact => None,
+            Accuracy::Watertight { subpixel_bits } => Some(subpixel_bits.get()),
+        },
         "width": frame.film.resolution.width(),
         "height": frame.film.resolution.height(),
         "window": [window.x0(), window.y0(), window.x1(), window.y1()],

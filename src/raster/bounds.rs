@@ -30,6 +30,11 @@ impl Rectangle {
         (x0 < x1 && y0 < y1).then_some(Self { x0, y0, x1, y1 })
     }
 
+    /// Number of pixels.
+    pub(super) fn len(self) -> u64 {
+        u64::from(self.x1 - self.x0) * u64::from(self.y1 - self.y0)
+    }
+
     /// The corner samples: least and greatest x and y.
     pub(super) fn samples(self) -> [[f64; 2]; 2] {
         [
@@ -39,7 +44,33 @@ impl Rectangle {
     }
 }
 
-/// The part of `window` that the triangle can cover, or `None` when it certainly covers nothing.
+/// Which points of the image are asked about: around every pixel of a window its closed box of
+/// half width `reach`; with reach 0 the samples alone.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Region {
+    pub(super) window: Window,
+    reach: f64,
+}
+
+/// Steps of a pixel in which a reach is kept: ½ + reach then has no rounding for a reach below
+/// 2^32 pixels.
+const REACH_STEPS: f64 = (1 << 20) as f64;
+
+impl Region {
+    /// The samples of a window.
+    pub(super) fn samples(window: Window) -> Self {
+        Self { window, reach: 0.0 }
+    }
+
+    /// The boxes around the samples of a window, or slightly larger ones; `half_width` is 0…2^17
+    /// pixels.
+    pub(super) fn boxes(window: Window, half_width: f64) -> Self {
+        Self { window, reach: (half_width * REACH_STEPS).ceil() / REACH_STEPS }
+    }
+}
+
+/// The pixels of the region in whose part of it the triangle can cover anything, or `None` when it
+/// certainly covers nothing.
 ///
 /// A triangle with all w_i ≤ 0 covers nothing: where it covers, Σ (W_i/V)·a_i = d with positive
 /// weights W_i/V (at the sample moved by the tie rule); w is linear and w(d) = 1, so some w_i > 0.
@@ -48,7 +79,7 @@ impl Rectangle {
 pub(super) fn pixels_of(
     plane: &ImagePlane,
     projection: &Projection,
-    window: Window,
+    region: Region,
 ) -> Option<Rectangle> {
     let points = &projection.points;
     // X_z = det(P)·w: turn it by sgn det(P), and bound it.
@@ -56,7 +87,7 @@ pub(super) fn pixels_of(
     if bounds.iter().all(|[_, high]| *high <= 0.0) {
         return None;
     }
-    let whole = Rectangle::of(window);
+    let whole = Rectangle::of(region.window);
     if !bounds.iter().all(|[low, _]| *low > 0.0) {
         return (!mutant::is(Mutant::EyePlaneRejected)).then_some(whole);
     }
@@ -67,10 +98,10 @@ pub(super) fn pixels_of(
             low = low.min(l);
             high = high.max(h);
         }
-        // Pixel i has its sample at i + ½. Rounding to nearest is monotone and keeps integers, so
-        // `ceil` cannot come out too high nor `floor` too low.
-        let from = (low - 0.5).ceil().max(f64::from(first));
-        let mut to = (high - 0.5).floor().min(f64::from(end) - 1.0);
+        // Pixel i has its box from i + ½ − reach to i + ½ + reach. Rounding to nearest is monotone
+        // and keeps integers, so `ceil` cannot come out too high nor `floor` too low.
+        let from = (low - (0.5 + region.reach)).ceil().max(f64::from(first));
+        let mut to = (high - (0.5 - region.reach)).floor().min(f64::from(end) - 1.0);
         if mutant::is(Mutant::ShortBounds) {
             to -= 1.0;
         }

@@ -182,18 +182,20 @@ impl Projection {
 }
 
 impl TriangleRows {
-    /// Certain bounds of (plane row)/|V| at a covered sample, where it is positive: 1/t up to a
-    /// factor that is the same for all triangles of the frame.
+    /// Certain bounds of (plane row)/|V|: at a covered sample 1/t up to a factor that is the same
+    /// for all triangles of the frame, elsewhere the row continued, which may be negative.
     #[inline]
     pub(super) fn inverse_depth(&self, x: f64, y: f64) -> [f64; 2] {
         let value = self.plane.at(x, y);
         if mutant::is(Mutant::InwardInterval) {
             return [value * self.inverse_volume[0]; 2];
         }
-        // Where the lower end is negative it is still a bound, because the true value is positive.
+        let (low, high) = (value - self.plane.bound, value + self.plane.bound);
+        // A numerator's sign tells which end of 1/|V| makes the quotient extreme.
+        let [least, greatest] = self.inverse_volume;
         [
-            (value - self.plane.bound) * self.inverse_volume[0],
-            (value + self.plane.bound) * self.inverse_volume[1],
+            low * if low >= 0.0 { least } else { greatest },
+            high * if high >= 0.0 { greatest } else { least },
         ]
     }
 }

@@ -1,7 +1,7 @@
 //! The f64 filters against the integers, on inputs made to be nearly zero.
 
 use super::bins::set_up;
-use super::bounds::{Rectangle, pixels_of};
+use super::bounds::{Rectangle, Region, pixels_of};
 use super::dyadic::Scaled;
 use super::exact::ExactTriangle;
 use super::image_plane::ImagePlane;
@@ -143,8 +143,8 @@ fn depth_intervals_hold_the_exact_depth() {
         let mut depths = 0;
         for (index, &corners) in triangles.iter().enumerate() {
             let id = TriangleId::new(index as u32);
-            let window = frame().window();
-            let Some(candidate) = set_up(&plane, &scene.mesh, window, id) else { continue };
+            let region = Region::samples(frame().window());
+            let Some(candidate) = set_up(&plane, &scene.mesh, region, id) else { continue };
             let exact = ExactTriangle::new(&plane, corners).unwrap();
             if exact.edges.iter().any(|edge| edge.sign_at(AIM) <= 0) {
                 continue;
@@ -176,7 +176,8 @@ fn nothing_covered_lies_outside_the_bounds() {
         let triangles = aimed_triangles(&camera);
         let plane = ImagePlane::new(&camera);
         for &corners in &triangles {
-            let pixels = pixels_of(&plane, &Projection::new(&plane, corners), window);
+            let pixels =
+                pixels_of(&plane, &Projection::new(&plane, corners), Region::samples(window));
             let Some(exact) = ExactTriangle::new(&plane, corners) else { continue };
             boxes += usize::from(pixels.is_some_and(|p| p != Rectangle::of(window)));
             for pixel in window.pixels().filter(|p| (p.x ^ p.y) % 37 == 0 || *p == AIM) {

@@ -3,7 +3,7 @@
 //! A filter that cannot certify a sign hands the one decision it has to the exact stage; nothing is
 //! decided by a tolerance. What was found is turned into the answer's shape by `resolve`.
 
-use super::bins::{Bins, Candidate, set_up};
+use super::bins::{Bins, Candidate};
 use super::bounds::Rectangle;
 use super::exact::ExactStage;
 use super::image_plane::ImagePlane;
@@ -14,7 +14,6 @@ use crate::mesh::{TriangleId, TriangleMesh};
 use crate::mutant::{self, Mutant};
 use crate::pixel::{Pixel, Window};
 use crate::visibility::{Counting, Cover, LevelCounts, VisibilityTile};
-use std::borrow::Cow;
 use std::cmp::Ordering;
 
 /// What the z-buffer holds of the nearest triangle so far.
@@ -56,8 +55,7 @@ struct Tile<'a> {
 pub(super) fn rasterize_tile(
     plane: &ImagePlane,
     mesh: &TriangleMesh,
-    window: Window,
-    bins: &Bins,
+    bins: &Bins<'_>,
     counting: Counting,
     tile_window: Window,
 ) -> VisibilityTile {
@@ -70,8 +68,7 @@ pub(super) fn rasterize_tile(
         cover,
         levels,
     };
-    let (ids, large) = bins.of(tile_window);
-    for candidate in in_order(ids, large, |id| set_up(plane, mesh, window, id)) {
+    for candidate in bins.candidates(tile_window) {
         tile.scan(&candidate);
     }
     VisibilityTile {
@@ -80,29 +77,6 @@ pub(super) fn rasterize_tile(
         cover: tile.cover,
         levels: tile.levels,
     }
-}
-
-/// Small and large triangles merged by id; the small ones are set up on the way.
-fn in_order<'a>(
-    ids: &'a [TriangleId],
-    large: &'a [Candidate],
-    set_up: impl Fn(TriangleId) -> Option<Candidate> + 'a,
-) -> impl Iterator<Item = Cow<'a, Candidate>> {
-    let (mut small, mut large) = (ids.iter().copied().peekable(), large.iter().peekable());
-    std::iter::from_fn(move || {
-        loop {
-            let small_first = match (small.peek(), large.peek()) {
-                (Some(id), Some(other)) => *id < other.rows.id,
-                (small, _) => small.is_some(),
-            };
-            if !small_first {
-                return large.next().map(Cow::Borrowed);
-            }
-            if let Some(candidate) = small.next().and_then(&set_up) {
-                return Some(Cow::Owned(candidate));
-            }
-        }
-    })
 }
 
 impl Tile<'_> {

@@ -3,6 +3,7 @@
 //! Only what decides the picture's bits: scene digest, camera lattice, switches, accuracy and
 //! effects. Not the path, threads or times, which change no bit. Keys are sorted.
 
+use super::Accuracy;
 use crate::scene::Scene;
 use crate::scene::hash::content_hash;
 use crate::shade;
@@ -12,14 +13,14 @@ use serde_json::{Value, json};
 const SCHEMA: &str = "truecast/picture/1";
 
 /// Describes how a picture of this scene is made.
-pub fn describe(scene: &Scene) -> Value {
+pub fn describe(scene: &Scene, accuracy: Accuracy) -> Value {
     let camera = &scene.camera;
     let effects: Vec<_> =
         shade::explain(scene).into_iter().filter(|call| call.on).map(|call| call.effect).collect();
-    json!({
+    let mut document = json!({
         "schema": SCHEMA,
         "scene_sha256": content_hash(scene),
-        "accuracy": "exact",
+        "accuracy": accuracy.name(),
         "camera": {
             "eye": camera.eye(),
             "d0": camera.d0(),
@@ -33,5 +34,9 @@ pub fn describe(scene: &Scene) -> Value {
         "dialect": scene.switches.dialect,
         "switches": scene.switches.table(),
         "effects": effects,
-    })
+    });
+    if let Accuracy::Watertight { subpixel_bits } = accuracy {
+        document["subpixel_bits"] = json!(subpixel_bits.get());
+    }
+    document
 }

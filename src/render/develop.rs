@@ -1,12 +1,13 @@
 //! Lays visibility and radiance out as the named planes of a film.
 //!
 //! Where nothing is visible, ids are 0xFFFF_FFFF, colour is the background and every other plane
-//! is 0 (no surface lies at depth 0). Values are rounded to f32 once, here.
+//! is 0 (no surface lies at depth 0), except `stable`, which speaks of nothing as of a triangle. Values are rounded to f32 once, here.
 
-use super::{PlaneGroup, PlaneGroups, describe};
+use super::{Accuracy, PlaneGroup, PlaneGroups, describe};
 use crate::color::LinearRgb;
 use crate::film::{Film, Plane, Samples};
 use crate::pixel::for_each_row;
+use crate::raster::{STANDARD_HALF_WIDTH, stability};
 use crate::scene::Scene;
 use crate::shade::surface_point;
 use crate::visibility::{VisibilityBuffer, Visible};
@@ -14,13 +15,15 @@ use crate::visibility::{VisibilityBuffer, Visible};
 /// "Nothing is visible" in id planes.
 const NOTHING: u32 = u32::MAX;
 
-/// Fills the planes that are asked for. `radiance` has one value per pixel of the buffer.
+/// Fills the planes that are asked for. `radiance` has one value per pixel of the buffer, and
+/// `accuracy` says how the buffer was found.
 /// Texture coordinates are left out of a scene that has none, unless only they are asked for.
 pub fn develop(
     scene: &Scene,
     buffer: &VisibilityBuffer,
     radiance: &[LinearRgb],
     groups: &PlaneGroups,
+    accuracy: Accuracy,
 ) -> Film {
     let mut planes = Vec::new();
     for group in groups.iter() {
@@ -38,7 +41,7 @@ pub fn develop(
         resolution: scene.camera.resolution(),
         window: buffer.window,
         planes,
-        description: describe(scene).to_string(),
+        description: describe(scene, accuracy).to_string(),
     }
 }
 
@@ -83,6 +86,10 @@ fn fill(
         }
         PlaneGroup::Verdict => {
             uints(buffer, 0, |visible| [visible.level as u32, u32::from(visible.tie)])
+        }
+        PlaneGroup::Stable => {
+            let stable = stability(scene, buffer, STANDARD_HALF_WIDTH, &|| ());
+            vec![Samples::Uint(stable.into_iter().map(u32::from).collect())]
         }
     }
 }

@@ -29,11 +29,13 @@ pub enum PlaneGroup {
     Cover,
     /// `verdict.level verdict.tie`.
     Verdict,
+    /// `stable`: 1 where the answer is certainly the same within ±1/256 pixel.
+    Stable,
 }
 
 impl PlaneGroup {
     /// Every group, in the order of the file format's description.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Color,
         Self::Depth,
         Self::RayParameter,
@@ -46,6 +48,7 @@ impl PlaneGroup {
         Self::Facing,
         Self::Cover,
         Self::Verdict,
+        Self::Stable,
     ];
 
     /// The name by which the group is asked for.
@@ -63,6 +66,7 @@ impl PlaneGroup {
             Self::Facing => "facing",
             Self::Cover => "cover",
             Self::Verdict => "verdict",
+            Self::Stable => "stable",
         }
     }
 
@@ -81,6 +85,7 @@ impl PlaneGroup {
             Self::Facing => &["facing"],
             Self::Cover => &["cover"],
             Self::Verdict => &["verdict.level", "verdict.tie"],
+            Self::Stable => &["stable"],
         }
     }
 }
@@ -98,9 +103,11 @@ pub struct UnknownPlane {
 pub struct PlaneGroups(Vec<PlaneGroup>);
 
 impl PlaneGroups {
-    /// Every plane that comes with the visible triangle: all but `cover`, which must look past it.
+    /// Every plane that comes with the visible triangle: all but `cover`, which must look past it,
+    /// and `stable`, which takes a pass of its own.
     pub fn standard() -> Self {
-        Self(PlaneGroup::ALL.into_iter().filter(|&group| group != PlaneGroup::Cover).collect())
+        let costs_more = [PlaneGroup::Cover, PlaneGroup::Stable];
+        Self(PlaneGroup::ALL.into_iter().filter(|group| !costs_more.contains(group)).collect())
     }
 
     /// Every plane.
@@ -172,7 +179,9 @@ mod tests {
 
     #[test]
     fn the_standard_set_never_looks_past_the_visible_triangle() {
-        assert!(!PlaneGroups::standard().has(PlaneGroup::Cover));
-        assert!(PlaneGroups::standard().with(PlaneGroup::Cover) == PlaneGroups::all());
+        let standard = PlaneGroups::standard();
+        assert!(!standard.has(PlaneGroup::Cover) && !standard.has(PlaneGroup::Stable));
+        let all = standard.with(PlaneGroup::Stable).with(PlaneGroup::Cover);
+        assert_eq!(all, PlaneGroups::all());
     }
 }

@@ -28,21 +28,25 @@ mod obj;
 mod raster;
 // What the README shows is what the program does.
 mod readme;
+// Hard cases of traversal, scale and transformation: H50 to H89, both paths and the arbiter.
+mod scale;
 // Bad scene files: every error with its line and column.
 mod scene_errors;
 // The documented keys are the parser's keys.
 mod scene_keys;
-// Hard cases of traversal, scale and transformation: H50 to H89, both paths and the arbiter.
-mod scale;
 // Good scene files: defaults, camera forms, transforms, materials.
 mod scene_load;
 // The scenes that come with the project.
 mod scenes;
 // Every special float in every number of a scene: a finite picture or an error with a place.
 mod specials;
+// The stability mask against moved samples and moved vertices.
+mod stability;
 // 200 generated scenes made of structure: both paths agree at every pixel.
 mod structured;
 // Golden scenes and builders that several modules use.
 mod support;
 // The list of visible triangles, and what lies between pixel centres.
 mod visible;
+// The rasterizer as graphics processors have it: exactly once, and where it may differ.
+mod watertight;

@@ -111,11 +111,15 @@ fn assert_sound(loaded: Result<Scene, SceneErrors>, name: &str, fate: &mut Fate)
     fate.rendered += 1;
 }
 
-fn load(form: &Form, folder: &Path, file: usize, replaced: Option<(usize, &str)>) -> Result<Scene, SceneErrors> {
+fn load(
+    form: &Form,
+    folder: &Path,
+    file: usize,
+    replaced: Option<(usize, &str)>,
+) -> Result<Scene, SceneErrors> {
     let texts = [form.scene, form.obj, form.mtl];
-    let [scene, obj, mtl] = std::array::from_fn(|k| {
-        substitute(texts[k], replaced.filter(|_| k == file))
-    });
+    let [scene, obj, mtl] =
+        std::array::from_fn(|k| substitute(texts[k], replaced.filter(|_| k == file)));
     if !obj.is_empty() {
         std::fs::write(folder.join("mesh.obj"), obj).unwrap();
         std::fs::write(folder.join("mesh.mtl"), mtl).unwrap();

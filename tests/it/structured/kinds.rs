@@ -143,9 +143,8 @@ fn mixed_scales(count: usize, random: &mut Random) -> Vec<Triangle> {
             let size = 2.0_f64.powi(random.below(201) as i32 - 100);
             let reach = if count > 1000 { 0.05 } else { 2.0 };
             let center = [random.integer(20), random.integer(12), 8.0].map(f64::from);
-            [0; 3].map(|_| {
-                center.map(|c| ((c + reach * (2.0 * random.unit() - 1.0)) * size) as f32)
-            })
+            [0; 3]
+                .map(|_| center.map(|c| ((c + reach * (2.0 * random.unit() - 1.0)) * size) as f32))
         })
         .collect()
 }
