@@ -10,7 +10,7 @@
 //! | `cover.npy` | (h, w) u32: how many triangles the ray crosses, at any depth |
 //! | `facing.npy` | (h, w) i8: +1 counter-clockwise as seen, −1 clockwise, 0 where nothing is |
 //! | `tie.npy` | (h, w) u8: 1 where the sample lies on an edge or at a shared depth: the tie rule decided |
-//! | `stable.npy` | (h, w) u8: 1 where the id is the same 1/256 pixel further in every direction |
+//! | `stable.npy` | (h, w) u8: 1 where the answer is certainly the same within ±1/256 pixel |
 //! | `sources.json` | per mesh: its range of ids, its name, its file and the line of each triangle |
 //!
 //! The ray of pixel (i, j), column and row from the top left, is eye + t·d, t > 0, with
@@ -22,7 +22,6 @@ mod folder;
 mod planes;
 mod sources;
 mod spool;
-mod stability;
 
 pub use folder::check_folder;
 

@@ -5,10 +5,10 @@
 
 use super::PixelCounts;
 use super::spool::Spool;
-use super::stability::{PASSES, stability_of};
 use crate::accel::Accelerator;
 use crate::cast::{TILE_SIDE, cast};
 use crate::pixel::Window;
+use crate::raster::{STANDARD_HALF_WIDTH, stability};
 use crate::render::Progress;
 use crate::scene::Scene;
 use crate::visibility::{Counting, VisibilityBuffer};
@@ -46,10 +46,10 @@ pub(super) fn write(
     let mut counts = PixelCounts::default();
     let bands = bands(frame.window(), BAND_PIXELS, scene);
     let tiles: usize = bands.iter().map(|band| band.tiles(TILE_SIDE).len()).sum();
-    progress.begin("export", tiles * (1 + PASSES));
+    progress.begin("export", 2 * tiles);
     for band in bands {
         let answer = cast(scene, accelerator, band, Counting::All, &|| progress.step());
-        let is_stable = stability_of(scene, accelerator, &answer, &|| progress.step());
+        let is_stable = stability(scene, &answer, STANDARD_HALF_WIDTH, &|| progress.step());
         count(&mut counts, &answer, &is_stable);
         let visible = || answer.visible.iter().map(Option::as_ref);
         prim.extend(visible().map(|v| v.map_or(NOTHING, |v| v.triangle.get())))?;
