@@ -181,4 +181,6 @@ fn count_pixel(levels: &mut LevelCounts, highest: Option<Level>) {
 }
 
 #[cfg(test)]
+mod filter_tests;
+#[cfg(test)]
 mod tests;

@@ -82,6 +82,12 @@ impl ShearedRay {
         }
     }
 
+    /// sgn d_z: the sign of W_i is this times that of w_i.
+    #[cfg(test)]
+    pub(super) fn depth_sign(&self) -> i8 {
+        self.depth_sign
+    }
+
     /// The three w = W_i/d_z and one bound for their signs.
     #[inline(always)]
     pub(super) fn edge_functions(&self, triangle: &LeafTriangle) -> ([f32; 3], f32) {
