@@ -43,6 +43,17 @@ impl Dyadic {
         debug_assert!(self.exponent >= unit);
         IBig::from(self.mantissa) << (self.exponent - unit) as usize
     }
+
+    /// The same, or `None` when it may need more than 64 bits.
+    pub(super) fn in_short_units(self, unit: i64) -> Option<i128> {
+        if self.mantissa == 0 {
+            return Some(0);
+        }
+        debug_assert!(self.exponent >= unit);
+        let shift = self.exponent - unit;
+        let bits = 64 - i64::from(self.mantissa.unsigned_abs().leading_zeros());
+        (bits + shift <= 64).then(|| i128::from(self.mantissa) << shift)
+    }
 }
 
 /// A real number as `mantissa · 2^exponent`, for magnitudes outside the range of f64.

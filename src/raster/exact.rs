@@ -5,6 +5,8 @@
 //! of one of these polynomials. Nothing is rounded and no size is assumed. Which samples need it is
 //! decided elsewhere; the f64 filters of `rows` share nothing with it but adj(P).
 
+mod short;
+
 use super::dyadic::{Dyadic, Scaled, sign};
 use super::exact_row::{DepthOrder, ExactRow};
 use super::image_plane::ImagePlane;
@@ -46,6 +48,9 @@ impl ExactTriangle {
             .map(|c| c.exponent)
             .min()
             .filter(|&exponent| exponent != i64::MAX)?;
+        if let Some(triangle) = short::triangle(plane, &corners, unit) {
+            return triangle;
+        }
         let eye = exact.eye.map(|c| c.in_units(unit));
         let points = corners.map(|v| {
             let a: [IBig; 3] = std::array::from_fn(|k| v[k].in_units(unit) - &eye[k]);
@@ -67,16 +72,16 @@ impl ExactTriangle {
         let edges = edges.map(|row| if flip { row.map(|c| -c) } else { row });
         let plane_wide: [IBig; 3] =
             std::array::from_fn(|k| &edges[0][k] + &edges[1][k] + &edges[2][k]);
+        let row = ExactRow::new(plane_wide.clone());
         let volume = if volume_sign < 0 { -volume } else { volume };
-        let ray_parameter = ray_parameter(plane, &volume, unit);
         Some(Self {
             volume_sign,
             edges: edges.map(ExactRow::new),
-            plane: ExactRow::new(plane_wide.clone()),
+            plane: row,
             plane_wide,
+            ray_parameter: ray_parameter(plane, &volume, unit),
             volume,
             unit,
-            ray_parameter,
         })
     }
 

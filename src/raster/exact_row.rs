@@ -46,6 +46,18 @@ impl ExactRow {
         Self { short, drop, wide: (drop > 0).then(|| Box::new(wide)), exponent: common as i64 - 1 }
     }
 
+    /// [`Self::new`] for coefficients below 2^126 in magnitude.
+    pub(super) fn from_short([a, b, c]: [i128; 3]) -> Self {
+        let c = c << 1;
+        let common = (a | b | c).trailing_zeros() & 127;
+        let short = [a, b, c].map(|v| v >> common);
+        let bits = |v: i128| (128 - v.unsigned_abs().leading_zeros()) as usize;
+        if bits(short[0]).max(bits(short[1])) > SLOPE_BITS || bits(short[2]) > OFFSET_BITS {
+            return Self::new([IBig::from(a), IBig::from(b), IBig::from(c >> 1)]);
+        }
+        Self { short, drop: 0, wide: None, exponent: i64::from(common) - 1 }
+    }
+
     /// Exact sign at the sample itself: −1, 0 or 1.
     pub(super) fn sign_at(&self, pixel: Pixel) -> i32 {
         let (value, error) = self.short_at(pixel);
@@ -143,5 +155,20 @@ mod tests {
             }
         }
         assert!(wide_decisions > 20);
+    }
+
+    #[test]
+    fn short_coefficients_give_the_same_row() {
+        let mut wide = 0;
+        for shift in [0, 3, 40, 70, 92] {
+            for row in [[0, 0, 0], [12, -8, 20], [-1, 0, 1], [0x1_2345_6789, -77, 1 << 33]] {
+                let row: [i128; 3] = row.map(|c: i128| (c << shift) - (c & 1) * i128::from(shift));
+                let (a, b) = (ExactRow::from_short(row), ExactRow::new(row.map(IBig::from)));
+                assert_eq!((a.short, a.drop, a.exponent), (b.short, b.drop, b.exponent));
+                assert_eq!(a.wide, b.wide);
+                wide += usize::from(a.wide.is_some());
+            }
+        }
+        assert!(wide > 0);
     }
 }

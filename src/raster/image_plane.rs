@@ -32,6 +32,8 @@ pub(super) struct ImagePlane {
 pub(super) struct ExactPlane {
     /// adj(P)·2^-`adjugate_exponent`.
     pub(super) adjugate: [[IBig; 3]; 3],
+    /// The same numbers: below 2^107.
+    pub(super) adjugate_short: [[i128; 3]; 3],
     /// Power of two that was taken out of `adjugate`.
     pub(super) adjugate_exponent: i64,
     /// det(P) of the integer lattice.
@@ -68,6 +70,7 @@ impl ImagePlane {
             },
             exact: ExactPlane {
                 adjugate: rows.map(|row| row.map(|c| IBig::from(c >> common))),
+                adjugate_short: rows.map(|row| row.map(|c| c >> common)),
                 adjugate_exponent: i64::from(common),
                 determinant,
                 lattice_exponent: q0_exponent + i64::from(shared),
