@@ -41,8 +41,8 @@ fn h14_integer_chaos() {
     while meshes < CHAOTIC_MESHES {
         seed += 1;
         let triangles = integer_chaos(seed);
-        // Odd multiples of one half, from inside the hull to outside of it.
-        let eye = [0; 3].map(|_| random.below(8) as f64 - 3.5);
+        // Odd multiples of one half, up to 5/2: inside the mesh or outside of it.
+        let eye = [0; 3].map(|_| random.below(6) as f64 - 2.5);
         if triangles.iter().any(|triangle| contains(triangle, eye)) {
             continue;
         }
