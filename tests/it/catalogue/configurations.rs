@@ -19,7 +19,7 @@ use truecast::visibility::{Counting, VisibilityBuffer};
 const TILE_SIDES: [u32; 5] = [1, 3, 8, 32, 64];
 
 /// Most triangles for all of [`TILE_SIDES`]; a larger scene has those of [`FEW_TILE_SIDES`]. A run of
-/// 100 000 takes 0.2 s.
+/// 100 000 takes tenths of a second.
 const ALL_SIDES_LIMIT: usize = 50_000;
 
 /// Tile sides of very large scenes: several tiles and one.
@@ -31,10 +31,10 @@ const THREADS: [usize; 2] = [1, 2];
 /// Both modes. The first has the counts that the others are compared with.
 const MODES: [Counting; 2] = [Counting::All, Counting::Nearest];
 
-/// Most pixels × triangles for the accelerator that is none: about 0.3 s per run.
+/// Most pixels × triangles for the accelerator that is none, which tests them all.
 const LINEAR_LIMIT: usize = 1 << 21;
 
-/// Most triangles for the preset that tries every node for reinsertion: it is quadratic on needles.
+/// Most triangles for the preset that tries every node for reinsertion, by far the slowest build.
 const VERY_SLOW_LIMIT: usize = 5000;
 
 /// The answer of the caster with counts, after every configuration of both paths gave the same and

@@ -125,8 +125,8 @@ const VERTEX_RAYS: usize = 30_000;
 /// the one that goes through a single one.
 const SHELLS: [i32; 2] = [12, 48];
 
-/// Also exactly aimed: a shell whose vertices lie on samples, 25 samples in 6 × 25² of its first
-/// size and 6 × 97² = 56 454 of its second.
+/// The spheres' rays pass beside their targets by a rounding. The shells' are exact: every sample
+/// meets a vertex or an edge, 6 × 25² of the small shell and 6 × 97² = 56 454 of the large one.
 #[test]
 fn h15_sphere_to_vertices() {
     for centre in CENTRES {
