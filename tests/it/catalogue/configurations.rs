@@ -18,16 +18,23 @@ use truecast::visibility::{Counting, VisibilityBuffer};
 /// catalogue (17), and larger than the paths' own (32).
 const TILE_SIDES: [u32; 5] = [1, 3, 8, 32, 64];
 
-/// Numbers of threads.
+/// Most triangles for all of [`TILE_SIDES`]; a larger scene has those of [`FEW_TILE_SIDES`]. A run of
+/// 100 000 takes tenths of a second.
+const ALL_SIDES_LIMIT: usize = 50_000;
+
+/// Tile sides of very large scenes: several tiles and one.
+const FEW_TILE_SIDES: [u32; 2] = [8, 32];
+
+/// Numbers of threads, each a pool of its own.
 const THREADS: [usize; 2] = [1, 2];
 
 /// Both modes. The first has the counts that the others are compared with.
 const MODES: [Counting; 2] = [Counting::All, Counting::Nearest];
 
-/// Most pixels × triangles for the accelerator that is none: about 0.3 s per run.
+/// Most pixels × triangles for the accelerator that is none, which tests them all.
 const LINEAR_LIMIT: usize = 1 << 21;
 
-/// Most triangles for the preset that tries every node for reinsertion: it is quadratic on needles.
+/// Most triangles for the preset that tries every node for reinsertion, by far the slowest build.
 const VERY_SLOW_LIMIT: usize = 5000;
 
 /// The answer of the caster with counts, after every configuration of both paths gave the same and
@@ -84,8 +91,9 @@ fn rasterize_by(scene: &Scene, mode: Counting, side: u32) -> VisibilityBuffer {
 fn cast_everywhere(name: &str, scene: &Scene, pools: &[ThreadPool; 2]) -> VisibilityBuffer {
     let mesh = &scene.mesh;
     let medium = Accelerator::build(mesh, BuildPreset::Medium);
-    let reference =
-        all_circumstances(name, "cast", pools, |mode, side| cast_by(scene, &medium, mode, side));
+    let reference = all_circumstances(name, "cast", scene, pools, |mode, side| {
+        cast_by(scene, &medium, mode, side)
+    });
     for (index, preset) in BuildPreset::ALL.into_iter().enumerate() {
         if preset == BuildPreset::VerySlow && mesh.len() > VERY_SLOW_LIMIT {
             continue;
@@ -111,19 +119,22 @@ fn cast_everywhere(name: &str, scene: &Scene, pools: &[ThreadPool; 2]) -> Visibi
 
 /// The rasterizer: all tiles, threads and modes.
 fn rasterize_everywhere(name: &str, scene: &Scene, pools: &[ThreadPool; 2]) -> VisibilityBuffer {
-    all_circumstances(name, "raster", pools, |mode, side| rasterize_by(scene, mode, side))
+    all_circumstances(name, "raster", scene, pools, |mode, side| rasterize_by(scene, mode, side))
 }
 
 /// The answer with counts, after every tile side, number of threads and mode gave its bits.
 fn all_circumstances(
     name: &str,
     path: &str,
+    scene: &Scene,
     pools: &[ThreadPool; 2],
     answer: impl Fn(Counting, u32) -> VisibilityBuffer + Sync,
 ) -> VisibilityBuffer {
+    let few = scene.mesh.len() > ALL_SIDES_LIMIT;
+    let sides: &[u32] = if few { &FEW_TILE_SIDES } else { &TILE_SIDES };
     let reference = pools[0].install(|| answer(Counting::All, 32));
     for (threads, pool) in THREADS.iter().zip(pools) {
-        for side in TILE_SIDES {
+        for &side in sides {
             for mode in MODES {
                 let circumstance = format!("{path}, {threads} threads, tiles of {side}, {mode:?}");
                 let found = pool.install(|| answer(mode, side));

@@ -7,32 +7,70 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// Coverage ties.
-const COVERAGE: &str = "h01 h02 h03 h04 h05 h06 h07 h08 h09 h10 h11 h12 h13 h14 h15 h16 h17 h18";
-/// Depth.
-const DEPTH: &str = "h20 h21 h22 h23 h24 h25 h26 h27 h28 h29 h30 h31";
-/// The eye and what is near it.
-const EYE: &str = "h40 h41 h42 h43 h44 h45 h46 h47 h48 h49 h4a h4b";
+/// A section of the catalogue.
+struct Section {
+    /// Its cases.
+    cases: &'static str,
+    /// Where its tests are: the beginning of their sources' paths under `tests/it`.
+    place: &'static str,
+    /// Whether every case must have a test.
+    complete: bool,
+}
 
-/// The lists that are complete, and the sources that hold their tests: beginnings of paths under
-/// `tests/it`.
-const COMPLETE: &[(&str, &[&str])] =
-    &[(COVERAGE, &["catalogue"]), (DEPTH, &["catalogue"]), (EYE, &["catalogue"])];
+const SECTIONS: [Section; 6] = [
+    // D.1: coverage ties.
+    Section {
+        cases: "h01 h02 h03 h04 h05 h06 h07 h08 h09 h10 h11 h12 h13 h14 h15 h16 h17 h18",
+        place: "catalogue",
+        complete: true,
+    },
+    // D.2: depth.
+    Section {
+        cases: "h20 h21 h22 h23 h24 h25 h26 h27 h28 h29 h30 h31",
+        place: "catalogue",
+        complete: true,
+    },
+    // D.3: the eye and what is near it.
+    Section {
+        cases: "h40 h41 h42 h43 h44 h45 h46 h47 h48 h49 h4a h4b",
+        place: "catalogue",
+        complete: true,
+    },
+    // D.4: traversal.
+    Section {
+        cases: "h50 h51 h52 h53 h54 h55 h56 h57 h58 h59 h60 h61 h62 h63 h64 h65",
+        place: "scale",
+        complete: false,
+    },
+    // D.5: scale, translation and extremes.
+    Section {
+        cases: "h70 h71 h72 h73 h74 h75 h76 h77 h78 h79 h7a",
+        place: "scale",
+        complete: false,
+    },
+    // D.6: transformations that change no picture.
+    Section {
+        cases: "h80 h81 h82 h83 h84 h85 h86 h87 h88 h89 h8a",
+        place: "scale",
+        complete: false,
+    },
+];
 
 #[test]
 fn every_case_is_here() {
     let tests_folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it");
-    for (cases, places) in COMPLETE {
+    for section in SECTIONS {
         let found: BTreeSet<String> = rust_files(&tests_folder)
             .iter()
             .filter(|path| {
-                let inside = path.strip_prefix(&tests_folder).unwrap().to_str().unwrap();
-                places.iter().any(|place| inside.starts_with(place))
+                let inside = path.strip_prefix(&tests_folder).unwrap();
+                inside.to_str().unwrap().starts_with(section.place)
             })
             .flat_map(|path| cases_tested(&fs::read_to_string(path).unwrap()))
             .collect();
-        let missing: Vec<&str> = cases.split(' ').filter(|case| !found.contains(*case)).collect();
-        assert!(missing.is_empty(), "no test is named after {missing:?}");
+        let missing: Vec<&str> =
+            section.cases.split(' ').filter(|case| !found.contains(*case)).collect();
+        assert!(missing.is_empty() || !section.complete, "no test is named after {missing:?}");
     }
 }
 
