@@ -6,6 +6,7 @@
 //! many pixels differ, `diagnosis` looks for one convention that explains them; it never applies
 //! one. Files are not read here, and radiance is not compared.
 
+mod class;
 mod csv;
 pub mod depth;
 pub mod diagnosis;
@@ -14,6 +15,7 @@ mod picture;
 mod sample;
 pub mod stability;
 
+pub use class::Class;
 pub use csv::to_csv;
 pub use depth::{DepthKind, DepthOff, DepthPlane};
 pub use diagnosis::Diagnosis;
@@ -41,56 +43,6 @@ pub struct Foreign {
     pub ids: Option<IdPlane>,
     /// Depths, when there are any.
     pub depth: Option<DepthPlane>,
-}
-
-/// What a pixel of theirs is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
-pub enum Class {
-    /// Another triangle than the visible one, or an id that no triangle has.
-    Wrong,
-    /// Nothing, where a triangle is visible.
-    Missing,
-    /// A triangle, where nothing is visible.
-    Extra,
-    /// The right triangle at a wrong depth.
-    DepthOff,
-    /// Right for a sample at most [`stability::UNSTABLE_HALF_WIDTH_PIXELS`] beside the centre.
-    Unstable,
-    /// Right under another tie rule.
-    AllowedTie,
-    /// The exact answer.
-    Agree,
-}
-
-impl Class {
-    /// Every class, the worst first.
-    pub const ALL: [Self; 7] = [
-        Self::Wrong,
-        Self::Missing,
-        Self::Extra,
-        Self::DepthOff,
-        Self::Unstable,
-        Self::AllowedTie,
-        Self::Agree,
-    ];
-
-    /// The word in reports.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Self::Wrong => "wrong",
-            Self::Missing => "missing",
-            Self::Extra => "extra",
-            Self::DepthOff => "depth off",
-            Self::Unstable => "unstable",
-            Self::AllowedTie => "allowed tie",
-            Self::Agree => "agree",
-        }
-    }
-
-    /// Whether it is an error of theirs.
-    pub const fn is_error(self) -> bool {
-        matches!(self, Self::Wrong | Self::Missing | Self::Extra | Self::DepthOff)
-    }
 }
 
 /// A pixel at which theirs is not the exact answer.

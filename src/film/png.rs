@@ -119,11 +119,17 @@ fn compress(width: u32, height: u32, codes: &[u8]) -> Result<Vec<u8>, FilmError>
     Ok(bytes)
 }
 
+/// No byte of a deflate stream stands for more bytes (zlib's documentation gives 1032).
+const DEFLATE_AT_MOST: usize = 1032;
+
 /// Ids from a PNG: 8-bit RGB packed to 24 bits (alpha is ignored), or 8- or 16-bit grey as it is.
 pub(super) fn decode_png_ids(bytes: &[u8], order: PackedOrder) -> Result<NumberPlane, String> {
     let decoder = ::png::Decoder::new(std::io::Cursor::new(bytes));
     let mut reader = decoder.read_info().map_err(|error| error.to_string())?;
     let size = reader.output_buffer_size().ok_or("its size does not fit the memory")?;
+    if size / DEFLATE_AT_MOST > bytes.len() {
+        return Err("it is cut short".to_owned());
+    }
     let mut codes = vec![0; size];
     let frame = reader.next_frame(&mut codes).map_err(|error| error.to_string())?;
     codes.truncate(frame.buffer_size());

@@ -194,6 +194,17 @@ fn a_vertex_moved_by_one_step_is_unstable_not_wrong() {
 }
 
 #[test]
+fn a_twin_seen_beside_the_centre_is_unstable_too() {
+    // Every triangle twice: the twins with the higher ids are never visible, and never wrong.
+    let scene = Scene::from_triangles(grid_camera(SIDE, 64.0), &[sheet(), sheet()].concat());
+    let moved = words(&answer(&shifted(&scene, 1.0 / 256.0, -1.0 / 256.0)));
+    let twins = moved.iter().map(|&word| if word == NOTHING { word } else { word + 288 });
+    let report = audit(&scene, twins.collect());
+    assert!(report.count(Class::Unstable) > 0 && report.count(Class::AllowedTie) > 1000);
+    assert_eq!(report.outcome(), ForeignOutcome::Agreement);
+}
+
+#[test]
 fn a_sliver_inside_the_box_is_found() {
     // Two halves of a square with a sliver of width 1/1024 px between them, near the middle sample
     // but on none of the points that the rim of the box holds.

@@ -14,6 +14,10 @@ pub(super) struct Sampler<'a> {
     pub(super) accelerator: &'a Accelerator,
 }
 
+/// Two depths in f64 that are the same where the caster says that there is a tie: 2^-40, thousands
+/// of roundings, far below any gap that f32 vertices leave by intent.
+const SAME_DEPTH_RELATIVE: f64 = 1.0 / (1_u64 << 40) as f64;
+
 /// A triangle's edge functions around a pixel's sample, turned so that inside is positive:
 /// w_i(x, y) = row[0] + row[1]·x + row[2]·y with (x, y) in pixels from the sample. In f64, with
 /// edges instead of second vertices: off by about 2^-53·|d|/|DX| pixels, 1e-13 of them.
@@ -37,10 +41,26 @@ impl Sampler<'_> {
         cast(&around, self.accelerator, frame.window(), Counting::Nearest, &|| ()).visible[0]
     }
 
-    /// The direction of a pixel's ray; exact.
-    fn direction(&self, pixel: Pixel) -> [f64; 3] {
-        let camera = &self.scene.camera;
+    /// Whether a triangle, which must reach to `point`, ties there with the visible one, where the
+    /// caster says that there is a tie.
+    pub(super) fn is_as_deep(
+        &self,
+        triangle: TriangleId,
+        point: [f64; 2],
+        visible: &Visible,
+    ) -> bool {
+        let pixel = Pixel { x: point[0] as u32, y: point[1] as u32 };
         let [x, y] = pixel.sample();
+        let covers = |rows: EdgeRows| {
+            rows.iter().all(|row| row[0] + row[1] * (point[0] - x) + row[2] * (point[1] - y) >= 0.0)
+        };
+        self.edge_rows(triangle, pixel).is_some_and(covers)
+            && (self.t_at(triangle, point) / visible.t() - 1.0).abs() <= SAME_DEPTH_RELATIVE
+    }
+
+    /// The direction of the ray through a point; exact on the camera's grid of 1/256 pixel.
+    fn direction(&self, [x, y]: [f64; 2]) -> [f64; 3] {
+        let camera = &self.scene.camera;
         std::array::from_fn(|k| camera.d0()[k] + x * camera.dx()[k] + y * camera.dy()[k])
     }
 
@@ -54,9 +74,13 @@ impl Sampler<'_> {
     /// t at which a pixel's ray meets the plane of a triangle, in f64; infinite or NaN where it
     /// does not.
     pub(super) fn plane_t(&self, triangle: TriangleId, pixel: Pixel) -> f64 {
+        self.t_at(triangle, pixel.sample())
+    }
+
+    fn t_at(&self, triangle: TriangleId, point: [f64; 2]) -> f64 {
         let [a, b, c] = self.corners(triangle);
         let normal = cross(subtract(b, a), subtract(c, a));
-        dot(a, normal) / dot(self.direction(pixel), normal)
+        dot(a, normal) / dot(self.direction(point), normal)
     }
 
     /// The edge functions of a triangle around a pixel; `None` where its volume has no sign in f64.
@@ -70,7 +94,7 @@ impl Sampler<'_> {
         if volume == 0.0 {
             return None;
         }
-        let d = self.direction(pixel);
+        let d = self.direction(pixel.sample());
         let camera = &self.scene.camera;
         Some(
             planes.map(|plane| {

@@ -2,7 +2,7 @@
 //!
 //! Programs that snap vertices or rays to a grid, or round them to f32, answer for a sample a little
 //! beside the centre; such an answer is no error. It takes a witness: a point of the box at which
-//! the exact answer is theirs. Points are tried on the box's rim and wherever their triangle (or, if
+//! the exact answer is theirs. Where two triangles tie at a point, either will do. Points are tried on the box's rim and wherever their triangle (or, if
 //! they saw nothing, what lies beside our triangle) reaches into the box. A witness is proof; that
 //! none was found is none, where their triangle is partly hidden inside the box.
 
@@ -63,8 +63,13 @@ pub(super) fn is_right_nearby(
     if rows.is_some() && places.iter().all(Vec::is_empty) {
         return false;
     }
-    let is_right =
-        |point: [f64; 2]| sampler.visible_at(point).map(|visible| visible.triangle) == wanted;
+    let is_right = |point: [f64; 2]| {
+        let visible = sampler.visible_at(point);
+        visible.map(|visible| visible.triangle) == wanted
+            || visible.zip(wanted).is_some_and(|(visible, triangle)| {
+                visible.tie && sampler.is_as_deep(triangle, point, &visible)
+            })
+    };
     rim(pixel).into_iter().any(is_right)
         || places.iter().flat_map(|place| points_in(place)).any(|o| is_right(beside(pixel, o)))
 }

@@ -2,6 +2,7 @@
 
 use super::Audited;
 use serde_json::{Value, json};
+use truecast::check::foreign::depth::DEPTH_TOLERANCE_RELATIVE;
 use truecast::check::foreign::stability::UNSTABLE_HALF_WIDTH_PIXELS;
 use truecast::check::foreign::{Class, Finding, ForeignOutcome, Theirs};
 use truecast::mesh::TriangleId;
@@ -41,6 +42,17 @@ pub(super) fn text(audited: &Audited<'_>) -> String {
         text += &format!(
             "  unstable: right for a sample at most 1/{:.0} px beside the centre\n",
             1.0 / UNSTABLE_HALF_WIDTH_PIXELS
+        );
+    }
+    let close = |finding: &&Finding| {
+        let gap = finding.gap.is_some_and(|gap| gap.abs() <= DEPTH_TOLERANCE_RELATIVE);
+        gap && finding.class == Class::Wrong
+    };
+    let close = report.findings.iter().filter(close).count();
+    if close > 0 {
+        text += &format!(
+            "  {close} of the wrong ones lie within {DEPTH_TOLERANCE_RELATIVE:.1e} of the visible \
+             depth, relative: single precision hardly tells them apart\n"
         );
     }
     if let Some(diagnosis) = &report.diagnosis {
