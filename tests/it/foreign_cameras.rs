@@ -8,7 +8,8 @@
 //! For many pixels of every camera, three points are searched by the forward projection alone that
 //! land around the pixel's centre, and the triangle between them must be seen by exactly that pixel.
 
-use crate::support::scenes::{Triangle, integer_chaos};
+use crate::support::closed::integer_chaos;
+use crate::support::scenes::Triangle;
 use truecast::accel::{Accelerator, BuildPreset};
 use truecast::cast::cast;
 use truecast::pixel::{Pixel, Resolution};

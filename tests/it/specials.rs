@@ -11,7 +11,7 @@ use std::path::Path;
 use truecast::check::{self, CheckOptions, Outcome};
 use truecast::film::Samples;
 use truecast::pixel::Resolution;
-use truecast::render::{PlaneGroups, Unwatched, develop};
+use truecast::render::{Accuracy, PlaneGroups, Unwatched, develop};
 use truecast::scene::{Overrides, Scene, SceneErrors};
 
 /// Zeros, ends of the ranges of f32 and f64, what overflows when squared or cubed, and no numbers.
@@ -97,7 +97,8 @@ fn assert_sound(loaded: Result<Scene, SceneErrors>, name: &str, fate: &mut Fate)
     for answer in &answers {
         let no_nan = answer.radiance.iter().flatten().all(|c| !c.is_nan() && *c >= 0.0);
         assert!(no_nan, "{name}: {:?}", answer.radiance);
-        let film = develop(&scene, &answer.buffer, &answer.radiance, &PlaneGroups::all());
+        let film =
+            develop(&scene, &answer.buffer, &answer.radiance, &PlaneGroups::all(), Accuracy::Exact);
         for plane in &film.planes {
             let Samples::Float(values) = &plane.samples else { continue };
             assert!(values.iter().all(|value| !value.is_nan()), "{name}: {}", plane.name);

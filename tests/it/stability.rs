@@ -3,9 +3,10 @@
 //! The camera's lattice holds every sample on the 1/256 pixel grid exactly, so that a camera whose
 //! D0 is moved by a·DX/256 + b·DY/256 asks about exactly that sample of the same scene.
 
+use super::support::closed::integer_chaos;
 use super::support::golden;
 use super::support::scenes::{
-    Triangle, fan, grid_camera, integer_chaos, pixel_grid, rectangle, scaled, standard_scene,
+    Triangle, fan, grid_camera, pixel_grid, rectangle, scaled, standard_scene,
 };
 use std::path::Path;
 use truecast::accel::{Accelerator, BuildPreset};

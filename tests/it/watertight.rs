@@ -4,8 +4,9 @@
 mod differences;
 
 use super::stability::ids;
+use super::support::closed::integer_chaos;
 use super::support::scenes::{
-    Triangle, fan, grid_camera, integer_chaos, pixel_grid, rectangle, scaled, standard_camera,
+    Triangle, fan, grid_camera, pixel_grid, rectangle, scaled, standard_camera,
 };
 use assert_cmd::Command;
 use truecast::accel::{Accelerator, BuildPreset};

@@ -2,11 +2,11 @@
 //! change it in a known way. No reference answer is needed.
 
 use super::{Breadth, FULL, NARROW, agreed, agreed_within, assert_same, cover, ids, triangles_of};
+use crate::support::closed::integer_chaos;
 use crate::support::golden;
 use crate::support::rays::{Random, closed_box, sphere, torus};
 use crate::support::scenes::{
-    Triangle, fan, grid_camera, integer_chaos, pixel_grid, rectangle, standard_camera,
-    standard_scene,
+    Triangle, fan, grid_camera, pixel_grid, rectangle, standard_camera, standard_scene,
 };
 use std::collections::HashMap;
 use truecast::accel::{Accelerator, BuildPreset};

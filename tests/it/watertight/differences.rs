@@ -2,7 +2,8 @@
 
 use super::{generic_camera, snapped, sphere};
 use crate::stability::ids;
-use crate::support::scenes::{Triangle, integer_chaos, scaled};
+use crate::support::closed::integer_chaos;
+use crate::support::scenes::{Triangle, scaled};
 use std::path::Path;
 use truecast::mesh::TriangleId;
 use truecast::pixel::{Pixel, Resolution};
