@@ -3,7 +3,6 @@
 mod aimed;
 mod crowds;
 mod golden;
-mod scales;
 
 use truecast::accel::{Accelerator, BuildPreset};
 use truecast::cast::{cast, cast_with_tiles};

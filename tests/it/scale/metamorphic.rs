@@ -1,9 +1,7 @@
 //! H80–H89: changes of the scene or of the way of asking that must not change the answer, or must
 //! change it in a known way. No reference answer is needed.
 
-use super::{
-    Breadth, FULL, NARROW, agreed, agreed_within, assert_same, cover, ids, triangles_of,
-};
+use super::{Breadth, FULL, NARROW, agreed, agreed_within, assert_same, cover, ids, triangles_of};
 use crate::support::golden;
 use crate::support::rays::{Random, closed_box, sphere, torus};
 use crate::support::scenes::{
@@ -235,8 +233,10 @@ fn h83_mirror() {
         let reference = agreed_within(&standard_scene(&triangles), &NARROW, &name);
         for (mx, my) in [(true, false), (false, true), (true, true)] {
             let flip = |c: f32, flips: bool| if flips { -c } else { c };
-            let mirrored: Vec<Triangle> =
-                triangles.iter().map(|t| t.map(|[x, y, z]| [flip(x, mx), flip(y, my), z])).collect();
+            let mirrored: Vec<Triangle> = triangles
+                .iter()
+                .map(|t| t.map(|[x, y, z]| [flip(x, mx), flip(y, my), z]))
+                .collect();
             let buffer = agreed_within(&standard_scene(&mirrored), &NARROW, &name);
             let from = |pixel: Pixel| Pixel {
                 x: if mx { 16 - pixel.x } else { pixel.x },
@@ -312,7 +312,9 @@ fn h87_one_more_one_less() {
         for _ in 0..3 {
             // One more, with the highest id.
             let mut more = triangles.clone();
-            more.push([0; 3].map(|_| [random.integer(6), random.integer(6), 1.0 + random.integer(6)]));
+            more.push(
+                [0; 3].map(|_| [random.integer(6), random.integer(6), 1.0 + random.integer(6)]),
+            );
             let added = more.len() as u32 - 1;
             let after = agreed_within(&standard_scene(&more), &NARROW, &name);
             for (a, b) in before.visible.iter().zip(&after.visible) {
@@ -356,7 +358,8 @@ fn same_place(visible: &Visible) -> (u32, ([u64; 2], Facing)) {
 /// det(a_0, a_1, a_2) of corners that are multiples of ¼, times 64, seen from the origin.
 fn volume(triangle: &Triangle) -> i64 {
     let [a, b, c] = triangle.map(|v| v.map(|c| (4.0 * c) as i64));
-    a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2])
+    a[0] * (b[1] * c[2] - b[2] * c[1])
+        + a[1] * (b[2] * c[0] - b[0] * c[2])
         + a[2] * (b[0] * c[1] - b[1] * c[0])
 }
 
@@ -381,8 +384,8 @@ fn h88_facing() {
             let away = [[0.0, 0.0, -1.0]; 3];
             triangles.iter().map(|t| if volume(t).signum() == side { *t } else { away }).collect()
         };
-        let [front, back] = [-1, 1]
-            .map(|side| agreed_within(&standard_scene(&only(side)), &NARROW, &name));
+        let [front, back] =
+            [-1, 1].map(|side| agreed_within(&standard_scene(&only(side)), &NARROW, &name));
         assert!(front.visible.iter().flatten().all(|v| v.facing == Facing::Front), "{name}");
         assert!(back.visible.iter().flatten().all(|v| v.facing == Facing::Back), "{name}");
         for (index, visible) in whole.visible.iter().enumerate() {
@@ -406,6 +409,9 @@ fn h88_facing() {
     }
 }
 
+/// An eye and the winding number of a closed mesh about it.
+type Winding = ([f64; 3], i32);
+
 /// The signed count of a closed mesh is the winding number of the eye, at every sample.
 #[test]
 fn h88_signed_count_of_closed_meshes() {
@@ -420,7 +426,7 @@ fn h88_signed_count_of_closed_meshes() {
         triangles.extend(inner);
         triangles
     };
-    let meshes: [(&str, Vec<Triangle>, Vec<([f64; 3], i32)>); 5] = [
+    let meshes: [(&str, Vec<Triangle>, Vec<Winding>); 5] = [
         (
             "sphere",
             sphere(16, 32, 2.0, [0.0; 3]),
@@ -429,23 +435,28 @@ fn h88_signed_count_of_closed_meshes() {
         (
             "torus",
             torus(32, 16, 3.0, 1.0),
-            vec![([3.0, 0.0, 0.25], 1), ([0.0; 3], 0), ([0.5, -0.5, 4.0], 0), ([0.0, -7.0, 0.0], 0)],
+            vec![
+                ([3.0, 0.0, 0.25], 1),
+                ([0.0; 3], 0),
+                ([0.5, -0.5, 4.0], 0),
+                ([0.0, -7.0, 0.0], 0),
+            ],
         ),
         (
             "box",
             closed_box([-1.0, -2.0, -1.5], [1.0, 2.0, 1.5]),
             vec![([0.0; 3], 1), ([0.5, -1.5, 1.0], 1), ([3.0, 0.0, 0.0], 0), ([1.0, 5.0, 1.5], 0)],
         ),
-        ("two boxes", twice(closed_box([-2.0; 3], [2.0; 3])), vec![
-            ([0.0; 3], 2),
-            ([1.5, 0.0, 0.0], 1),
-            ([4.0, 1.0, 1.0], 0),
-        ]),
-        ("two spheres", twice(sphere(12, 24, 2.0, [0.0; 3])), vec![
-            ([0.1, 0.0, 0.0], 2),
-            ([0.0, 1.5, 0.0], 1),
-            ([0.0, 0.0, 4.0], 0),
-        ]),
+        (
+            "two boxes",
+            twice(closed_box([-2.0; 3], [2.0; 3])),
+            vec![([0.0; 3], 2), ([1.5, 0.0, 0.0], 1), ([4.0, 1.0, 1.0], 0)],
+        ),
+        (
+            "two spheres",
+            twice(sphere(12, 24, 2.0, [0.0; 3])),
+            vec![([0.1, 0.0, 0.0], 2), ([0.0, 1.5, 0.0], 1), ([0.0, 0.0, 4.0], 0)],
+        ),
     ];
     for (name, triangles, eyes) in meshes {
         for (eye, winding) in eyes {
@@ -479,10 +490,8 @@ fn h89_exchanged_paths() {
         let raster = shaded(rasterize(&scene, window, Counting::All, &|| ()));
         let options = CheckOptions { audited_pixels: 40, ..CheckOptions::default() };
         let judge = |answers: &[Answered; 2]| check::judge(&scene, answers, &options, &Unwatched);
-        let [plain, exchanged] = [
-            judge(&[cast.clone(), raster.clone()]),
-            judge(&[raster.clone(), cast.clone()]),
-        ];
+        let [plain, exchanged] =
+            [judge(&[cast.clone(), raster.clone()]), judge(&[raster.clone(), cast.clone()])];
         assert_eq!(plain.outcome(), Outcome::Agreement, "{name}");
         assert_eq!(exchanged.outcome(), Outcome::Agreement, "{name}");
         assert_eq!(plain.tied_pixels, exchanged.tied_pixels, "{name}");

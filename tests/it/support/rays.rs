@@ -70,12 +70,7 @@ impl Random {
 
 /// A UV sphere about `center`, closed, counter-clockwise from outside, its corners on multiples of
 /// 2^-24 so that differences keep a camera's lattice.
-pub(crate) fn sphere(
-    rings: u32,
-    segments: u32,
-    radius: f64,
-    center: [f64; 3],
-) -> Vec<Triangle> {
+pub(crate) fn sphere(rings: u32, segments: u32, radius: f64, center: [f64; 3]) -> Vec<Triangle> {
     let corner = |ring: u32, segment: u32| -> [f32; 3] {
         let polar = std::f64::consts::PI * f64::from(ring) / f64::from(rings);
         let around = std::f64::consts::TAU * f64::from(segment % segments) / f64::from(segments);
@@ -127,9 +122,8 @@ pub(crate) fn torus(around: u32, across: u32, major: f64, minor: f64) -> Vec<Tri
 
 /// The axis-aligned box from `lo` to `hi`, counter-clockwise from outside.
 pub(crate) fn closed_box(lo: [f32; 3], hi: [f32; 3]) -> Vec<Triangle> {
-    let corner = |bits: usize| {
-        std::array::from_fn(|k| if bits >> k & 1 == 1 { hi[k] } else { lo[k] })
-    };
+    let corner =
+        |bits: usize| std::array::from_fn(|k| if bits >> k & 1 == 1 { hi[k] } else { lo[k] });
     // Each face by its four corners, bit k of a number choosing the side along axis k.
     [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]
         .into_iter()
