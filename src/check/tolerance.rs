@@ -32,14 +32,15 @@ pub fn radiance_bound(a: f64, b: f64, ns: f64) -> f64 {
     RADIANCE * (1.0 + a.abs().max(b.abs())) * (1.0 + ns.sqrt())
 }
 
-/// Largest difference over the channels, and whether every channel is within its bound. NaN never
-/// is.
+/// Largest difference over the channels, and whether every channel is within its bound. Equal
+/// infinities, which colours beyond f64 make, differ by 0; NaN is never within a bound.
 pub fn compare_radiance(a: LinearRgb, b: LinearRgb, ns: f64) -> (f64, bool) {
     let mut largest = 0.0_f64;
     let mut within = true;
     for k in 0..3 {
-        let difference = (a[k] - b[k]).abs();
-        within &= difference <= radiance_bound(a[k], b[k], ns);
+        let difference = if a[k] == b[k] { 0.0 } else { (a[k] - b[k]).abs() };
+        // An infinite difference is none that an infinite bound could tolerate.
+        within &= difference.is_finite() && difference <= radiance_bound(a[k], b[k], ns);
         largest = if difference.is_nan() { f64::NAN } else { largest.max(difference) };
     }
     (largest, within)
@@ -58,5 +59,7 @@ mod tests {
         assert!(compare_radiance([1.0; 3], [1.0 + 1.9e-9; 3], 0.0).1);
         assert!(!compare_radiance([1.0; 3], [1.0 + 2.1e-9; 3], 0.0).1);
         assert!(!compare_radiance([f64::NAN; 3], [f64::NAN; 3], 0.0).1);
+        assert_eq!(compare_radiance([f64::INFINITY; 3], [f64::INFINITY; 3], 0.0), (0.0, true));
+        assert!(!compare_radiance([f64::INFINITY; 3], [1.0; 3], 0.0).1);
     }
 }

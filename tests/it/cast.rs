@@ -3,7 +3,6 @@
 mod aimed;
 mod crowds;
 mod golden;
-mod scales;
 
 use crate::support::closed::sphere;
 use crate::support::scenes::{Sequence, Triangle, single_ray};

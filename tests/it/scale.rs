@@ -27,7 +27,7 @@ pub(crate) struct Breadth {
     pub(crate) presets: &'static [BuildPreset],
     /// Whether the linear scan answers as well.
     pub(crate) linear: bool,
-    /// Tile sides of both paths, pixels.
+    /// Tile sides of both paths, pixels; at least one.
     pub(crate) tile_sides: &'static [u32],
     /// Pixels that the arbiter looks at; all when the frame has no more.
     pub(crate) audited_pixels: usize,
@@ -87,18 +87,20 @@ fn cast_everywhere(scene: &Scene, breadth: &Breadth, name: &str) -> VisibilityBu
     let ask = |tree: &Accelerator, counting, side, pool: usize| {
         POOLS[pool].install(|| cast_with_tiles(scene, tree, window, counting, &|| (), side))
     };
-    let answer = ask(&trees[0].1, Counting::All, 32, 1);
+    // Tile sides and threads take turns over the trees, so that each meets each somewhere.
+    let side = |number: usize| breadth.tile_sides[number % breadth.tile_sides.len()];
+    let answer = ask(&trees[0].1, Counting::All, side(0), 1);
     for (number, (tree_name, tree)) in trees.iter().enumerate() {
-        // Tile sides and threads take turns over the trees, so that each meets each somewhere.
-        let side = breadth.tile_sides[number % breadth.tile_sides.len()];
-        let what = format!("{name}, {tree_name}, tiles of {side}");
-        let counted = ask(tree, Counting::All, side, number % 2);
-        assert_same(&answer, &counted, &what);
-        assert_eq!(answer.cover, counted.cover, "{what}");
-        let nearest = ask(tree, Counting::Nearest, side, (number + 1) % 2);
+        let what = format!("{name}, {tree_name}, tiles of {}", side(number));
+        if number > 0 {
+            let counted = ask(tree, Counting::All, side(number), number % 2);
+            assert_same(&answer, &counted, &what);
+            assert_eq!(answer.cover, counted.cover, "{what}");
+        }
+        let nearest = ask(tree, Counting::Nearest, side(number), number % 2);
         assert_same(&answer, &nearest, &format!("{what}, nearest only"));
     }
-    for &side in breadth.tile_sides {
+    for &side in &breadth.tile_sides[1..] {
         let tiled = ask(&trees[0].1, Counting::All, side, 0);
         assert_same(&answer, &tiled, &format!("{name}, tiles of {side}"));
         assert_eq!(answer.cover, tiled.cover, "{name}, tiles of {side}");
@@ -112,12 +114,14 @@ fn rasterize_everywhere(scene: &Scene, breadth: &Breadth, name: &str) -> Visibil
     let ask = |counting, side, pool: usize| {
         POOLS[pool].install(|| rasterize_in_tiles(scene, window, counting, side, &|| ()))
     };
-    let answer = ask(Counting::All, 32, 1);
-    for &side in breadth.tile_sides {
-        let counted = ask(Counting::All, side, 0);
-        assert_same(&answer, &counted, &format!("{name}, rasterized in tiles of {side}"));
-        assert_eq!(answer.cover, counted.cover, "{name}, rasterized in tiles of {side}");
-        let nearest = ask(Counting::Nearest, side, 1);
+    let answer = ask(Counting::All, breadth.tile_sides[0], 1);
+    for (number, &side) in breadth.tile_sides.iter().enumerate() {
+        if number > 0 {
+            let counted = ask(Counting::All, side, 0);
+            assert_same(&answer, &counted, &format!("{name}, rasterized in tiles of {side}"));
+            assert_eq!(answer.cover, counted.cover, "{name}, rasterized in tiles of {side}");
+        }
+        let nearest = ask(Counting::Nearest, side, 0);
         assert_same(&answer, &nearest, &format!("{name}, rasterized, nearest only"));
     }
     answer

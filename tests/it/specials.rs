@@ -49,6 +49,9 @@ const SPECIALS: [&str; 31] = [
     "nan",
 ];
 
+/// Planes that a number at the end of f32 or beyond may make infinite.
+const OVERFLOWING: [&str; 5] = ["R", "G", "B", "u", "v"];
+
 /// The text with its marked numbers as they stand, but for one.
 fn substitute(marked: &str, replaced: Option<(usize, &str)>) -> String {
     let mut parts = marked.split(['‹', '›']);
@@ -149,11 +152,14 @@ fn audit(form: &Form) {
                 assert_sound(loaded, &name, &mut one);
                 fate.refused += one.refused;
                 fate.rendered += one.rendered;
-                // A plane overflows only where a number beyond 10³⁷ was written.
-                let is_huge = special.parse::<f64>().unwrap().abs() >= 1e37;
-                let _ = is_huge;
-                if !one.overflowing.is_empty() {
-                    fate.overflowing.push(format!("{name}: {:?}", one.overflowing));
+                // EXR radiance is never clamped: a colour or a texture coordinate at the end of
+                // f32 or beyond may be infinite in its plane. Nothing else may be, and nothing of
+                // smaller numbers.
+                let ends_f32 = special.parse::<f64>().unwrap().abs() >= f64::from(f32::MAX);
+                let may_overflow = |plane: &String| OVERFLOWING.contains(&plane.as_str());
+                if !ends_f32 || !one.overflowing.iter().all(may_overflow) {
+                    let planes = one.overflowing.iter().map(|plane| format!("{name}: {plane}"));
+                    fate.overflowing.extend(planes);
                 }
             }
         }

@@ -27,69 +27,70 @@ fn whole_number_camera([width, height]: [u32; 2], eye: [f64; 3]) -> PinholeCamer
 }
 
 /// All scenes of one kind; what they must have met for the test to mean something is asserted.
-fn assert_kind(kind: Kind, least_ties: usize) {
-    let (mut ties, mut covered, mut largest, mut exact) = (0, 0, 0, 0);
+fn assert_kind(kind: Kind, most_triangles: f64, least_ties: usize) {
+    let (mut ties, mut covered, mut largest) = (0, 0, 0);
     for number in 0..SCENES {
         let mut random = Random((kind as u64) << 32 | number as u64);
-        // From 1 triangle to 10⁵: a fifth of a decade a scene.
-        let count = 10.0_f64.powf(number as f64 * 5.0 / (SCENES - 1) as f64).round() as usize;
-        let frame = if count > 5000 { [65, 33] } else { FRAMES[number % FRAMES.len()] };
+        // From 1 triangle to the most, by equal factors: a fifth of a decade up to 10⁵.
+        let count = most_triangles.powf(number as f64 / (SCENES - 1) as f64).round() as usize;
+        let frame = if count > 1000 { [33, 17] } else { FRAMES[number % FRAMES.len()] };
         let (triangles, eye) = triangles_of(kind, count, &mut random);
         let scene = Scene::from_triangles(whole_number_camera(frame, eye), &triangles);
-        let audited_pixels = if count > 20_000 { 16 } else { 40 };
+        let audited_pixels = if count > 5000 { 8 } else { 30 };
         let breadth = Breadth { audited_pixels, ..NARROW };
         let name = format!("{kind:?} {number} of {} triangles", triangles.len());
         let buffer = agreed_within(&scene, &breadth, &name);
         ties += buffer.visible.iter().flatten().filter(|v| v.tie).count();
         covered += buffer.covered_pixels();
         largest = largest.max(triangles.len());
-        exact += buffer.levels.exact;
         if kind == Kind::ClosedMesh {
             let counts = buffer.cover.as_ref().unwrap();
             assert!(counts.iter().all(|c| c.signed == counts[0].signed), "{name}");
         }
     }
-    assert!(largest >= 30_000, "{kind:?}: {largest} triangles at most");
+    assert!(largest as f64 >= 0.9 * most_triangles, "{kind:?}: {largest} triangles at most");
     assert!(covered > 1000, "{kind:?}: {covered} pixels are covered");
-    assert!(ties >= least_ties, "{kind:?}: {ties} ties, {exact} exact decisions");
+    assert!(ties >= least_ties, "{kind:?}: {ties} ties");
 }
 
 #[test]
 fn grids_on_pixel_centres() {
-    assert_kind(Kind::Grid, 5000);
+    assert_kind(Kind::Grid, 1e5, 5000);
 }
 
 #[test]
 fn fans_on_pixel_centres() {
-    assert_kind(Kind::Fan, 500);
+    assert_kind(Kind::Fan, 1e5, 500);
 }
 
 #[test]
 fn coplanar_decals() {
-    assert_kind(Kind::Decals, 5000);
+    assert_kind(Kind::Decals, 1e5, 5000);
 }
 
 #[test]
 fn sheets_one_step_apart() {
-    assert_kind(Kind::Sheets, 0);
+    assert_kind(Kind::Sheets, 1e5, 0);
 }
 
+/// At most 3 000 triangles: of sizes spread over 200 powers of two nearly all crowd about the eye,
+/// where no tree parts them, so a ray tests a large share of them.
 #[test]
 fn scales_from_2_to_minus_100_to_2_to_100() {
-    assert_kind(Kind::MixedScales, 0);
+    assert_kind(Kind::MixedScales, 3e3, 0);
 }
 
 #[test]
 fn eyes_on_planes() {
-    assert_kind(Kind::EyeOnPlanes, 100);
+    assert_kind(Kind::EyeOnPlanes, 1e5, 100);
 }
 
 #[test]
 fn closed_integer_meshes() {
-    assert_kind(Kind::ClosedMesh, 500);
+    assert_kind(Kind::ClosedMesh, 1e5, 100);
 }
 
 #[test]
 fn soups_with_shared_edges() {
-    assert_kind(Kind::Soup, 500);
+    assert_kind(Kind::Soup, 1e5, 500);
 }

@@ -409,6 +409,9 @@ fn h88_facing() {
     }
 }
 
+/// An eye and the winding number of a closed mesh about it.
+type Winding = ([f64; 3], i32);
+
 /// The signed count of a closed mesh is the winding number of the eye, at every sample.
 #[test]
 fn h88_signed_count_of_closed_meshes() {
@@ -423,7 +426,7 @@ fn h88_signed_count_of_closed_meshes() {
         triangles.extend(inner);
         triangles
     };
-    let meshes: [(&str, Vec<Triangle>, Vec<([f64; 3], i32)>); 5] = [
+    let meshes: [(&str, Vec<Triangle>, Vec<Winding>); 5] = [
         (
             "sphere",
             sphere(16, 32, 2.0, [0.0; 3]),

@@ -21,6 +21,11 @@ pub(super) enum Kind {
 
 const ORIGIN: [f64; 3] = [0.0; 3];
 
+/// How far corners lie apart: large sets keep to short edges, or every sample crosses all of them.
+fn reach_of(count: usize) -> i32 {
+    if count > 500 { 1 } else { 8 }
+}
+
 /// About `count` triangles of that kind, and the eye.
 pub(super) fn triangles_of(
     kind: Kind,
@@ -45,7 +50,7 @@ fn grids(count: usize, random: &mut Random) -> Vec<Triangle> {
     let mut triangles = Vec::new();
     let mut layer = 1.0;
     while triangles.len() < count {
-        let cell = (1 + random.below(6)) as f32 * layer;
+        let cell = if count > 500 { 1 } else { 1 + random.below(6) } as f32 * layer;
         let half = (32.0 * layer / cell).floor();
         let mut y = -half * cell;
         while y < half * cell && triangles.len() < count {
@@ -76,7 +81,7 @@ fn fans(count: usize, random: &mut Random) -> Vec<Triangle> {
         let blades = (3 + random.below(60)).min(count - triangles.len() + 2);
         let z = 8.0 * (1 + random.below(4)) as f32;
         let hub = [random.integer(20), random.integer(12), z];
-        let radius = 2.0 + 10.0 * random.unit();
+        let radius = if count > 500 { 1.0 + random.unit() } else { 2.0 + 10.0 * random.unit() };
         let on_whole_numbers = random.below(2) == 0;
         let rim = |k: usize| {
             let angle = std::f64::consts::TAU * (k % blades) as f64 / blades as f64;
@@ -92,14 +97,16 @@ fn fans(count: usize, random: &mut Random) -> Vec<Triangle> {
 /// Triangles of whole numbers in few planes: x + 2y + 3z = c, z = c, and copies.
 fn decals(count: usize, random: &mut Random) -> Vec<Triangle> {
     let mut triangles: Vec<Triangle> = Vec::with_capacity(count);
+    let reach = reach_of(count);
     while triangles.len() < count {
         let plane = 8.0 * (1 + random.below(3)) as f32;
         let tilted = random.below(2) == 0;
+        let middle = [random.integer(24), random.integer(12), random.integer(6)];
         let corner = |random: &mut Random| {
-            let (y, z) = (random.integer(12), random.integer(6));
+            let [x, y, z] = middle.map(|c| c + random.integer(reach));
             match tilted {
                 true => [3.0 * plane - 2.0 * y - 3.0 * z, y, z],
-                false => [random.integer(30), y, plane],
+                false => [x, y, plane],
             }
         };
         let triangle = [corner(random), corner(random), corner(random)];
@@ -153,12 +160,15 @@ fn mixed_scales(count: usize, random: &mut Random) -> Vec<Triangle> {
 fn eye_on_planes(count: usize, random: &mut Random) -> (Vec<Triangle>, [f64; 3]) {
     let eye = [random.integer(2), random.integer(2), random.integer(2)];
     let mut triangles: Vec<Triangle> = Vec::with_capacity(count);
+    let reach = reach_of(count);
     while triangles.len() < count {
-        let mut corner = || [random.integer(9), random.integer(9), random.integer(12)];
+        let middle = [random.integer(12), random.integer(8), random.integer(12)];
+        let mut corner = || middle.map(|c| c + random.integer(reach));
         let [a, b, c] = [corner(), corner(), corner()];
         // The eye, a, and a combination of both with b: their plane holds the eye.
         let through: [f32; 3] = std::array::from_fn(|k| 2.0 * eye[k] - a[k]);
-        triangles.push(match random.below(6) {
+        // Every sample meets the box of a triangle around the eye: few of those in large sets.
+        triangles.push(match random.below(if count > 500 { 600 } else { 6 }) {
             0 => [a, b, through],
             1 => [a, b, std::array::from_fn(|k| a[k] + b[k] - eye[k])],
             2 => [eye, a, b],
@@ -175,7 +185,7 @@ fn closed_mesh(count: usize, random: &mut Random) -> (Vec<Triangle>, [f64; 3]) {
     let eye = [0.5, -0.5, -30.5];
     let mut triangles: Vec<Triangle> = Vec::new();
     // Large meshes are finer, not more crowded: a ring grid with corners jittered about a sphere.
-    let segments = ((count as f64 / 2.0).sqrt() as usize).clamp(3, 250);
+    let segments = ((count as f64 / 2.0).sqrt() as usize).clamp(3, 223);
     let reach = 20.0;
     let corner = |ring: usize, segment: usize, random: &mut Random| -> [f32; 3] {
         let polar = std::f64::consts::PI * (ring as f64 + 1.0) / (segments as f64 + 1.0);
@@ -202,8 +212,7 @@ fn closed_mesh(count: usize, random: &mut Random) -> (Vec<Triangle>, [f64; 3]) {
 /// Triangles that grow across each other's edges, on whole numbers, without any order.
 fn soup(count: usize, random: &mut Random) -> Vec<Triangle> {
     let mut triangles: Vec<Triangle> = Vec::with_capacity(count);
-    // A large soup keeps to short edges, or every sample crosses all of it.
-    let step = if count > 1000 { 2 } else { 8 };
+    let step = reach_of(count);
     while triangles.len() < count {
         if triangles.is_empty() || random.below(12) == 0 {
             let at = [random.integer(24), random.integer(16), 4.0 + random.integer(12)];
