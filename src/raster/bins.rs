@@ -42,6 +42,9 @@ pub(super) fn set_up(
     Some(Candidate { rows, pixels })
 }
 
+/// The triangles of one parallel step: where each goes, and those that meet many tiles.
+type Placed = (Vec<(u32, Tiles)>, Vec<Candidate>);
+
 /// Every tile's triangles.
 pub(super) struct Bins<'a> {
     plane: &'a ImagePlane,
@@ -68,7 +71,7 @@ impl<'a> Bins<'a> {
         };
         // Place every triangle in parallel; the lists keep the order of ids.
         let count = mesh.len() as u32;
-        let mut placed: Vec<(Vec<(u32, Tiles)>, Vec<Candidate>)> = (0..count.div_ceil(CHUNK))
+        let mut placed: Vec<Placed> = (0..count.div_ceil(CHUNK))
             .into_par_iter()
             .map(|chunk| {
                 let (mut tiles, mut large) = (Vec::new(), Vec::new());
