@@ -215,7 +215,9 @@ fn judge_id(
     // Ties exist only where the tie rule decided for us, or where theirs has an edge through the
     // sample: elsewhere the winner covers the sample under every rule, strictly in front.
     let may_tie = visible.is_some_and(|visible| visible.tie)
-        || seen.is_some_and(|triangle| arbiter.is_on_edge(triangle, pixel));
+        || seen.is_some_and(|triangle| {
+            stability::may_reach(sampler, pixel, triangle) && arbiter.is_on_edge(triangle, pixel)
+        });
     let is_allowed = may_tie && {
         let right = arbiter.tie_answers(pixel);
         match theirs {

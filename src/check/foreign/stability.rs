@@ -74,6 +74,12 @@ pub(super) fn is_right_nearby(
         || places.iter().flat_map(|place| points_in(place)).any(|o| is_right(beside(pixel, o)))
 }
 
+/// Whether a triangle may reach into the box: false is certain, and cheap.
+pub(super) fn may_reach(sampler: &Sampler<'_>, pixel: Pixel, triangle: TriangleId) -> bool {
+    let rows = sampler.edge_rows(triangle, pixel);
+    rows.is_none_or(|rows| !rows.iter().fold(square(), |part, &row| clip(&part, row)).is_empty())
+}
+
 /// Corners in order, in pixels from the sample.
 type Polygon = Vec<[f64; 2]>;
 
