@@ -1,7 +1,7 @@
 //! Deliberate mistakes, for tests only: what shows that the tests can fail.
 //!
 //! Each [`Mutant`] is one wrong variant of production code, the kind of mistake that renderers are
-//! known for. The places that decide something ask [`is`] whether a mistake is planted there; the
+//! known for. The places that decide something ask `is` whether a mistake is planted there; the
 //! table of `tests/mutants` plants them one after the other and names the hard case that catches
 //! each. Without the cargo feature `mutants` the question is the constant `false`, so that the
 //! compiler leaves nothing of it; the program itself is built so.
