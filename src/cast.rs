@@ -98,13 +98,15 @@ impl TileCaster<'_> {
         let Self { view, accelerator, counting, pending, same_plane, levels } = self;
         let ray = view.ray(pixel);
         let slabs = Slabs::new(ray.eye, ray.direction());
-        let sheared = ShearedRay::new(&ray);
+        // Most rays of an empty sky meet no leaf.
+        let mut sheared = None;
         let mut highest = None;
         let mut nearest: Option<Candidate> = None;
         let mut cover = Cover::default();
         accelerator.traverse(&slabs, pending, |triangles| {
+            let sheared = sheared.get_or_insert_with(|| ShearedRay::new(&ray));
             for triangle in triangles {
-                let (covering, level) = coverage::decide(&ray, &sheared, triangle);
+                let (covering, level) = coverage::decide(&ray, sheared, triangle);
                 count(levels, level);
                 highest = highest.max(Some(level));
                 let Some(covering) = covering else { continue };
