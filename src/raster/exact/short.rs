@@ -5,6 +5,7 @@
 //! can overflow.
 
 use super::{ExactTriangle, ray_parameter};
+use crate::mutant::{self, Mutant};
 use crate::raster::dyadic::{Dyadic, sign};
 use crate::raster::exact_row::ExactRow;
 use crate::raster::image_plane::ImagePlane;
@@ -45,7 +46,10 @@ pub(super) fn triangle(
     } else {
         (0..3).map(|k| IBig::from(x[0][k]) * IBig::from(edges[0][k])).sum()
     };
-    let volume_sign = sign(&volume);
+    let volume_sign = match sign(&volume) {
+        0 if mutant::is(Mutant::VolumeZeroHits) => 1,
+        sign => sign,
+    };
     if volume_sign == 0 {
         return Some(None);
     }
