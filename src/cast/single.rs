@@ -1,4 +1,7 @@
-//! The f32 filter: signs of the three W_i at a fraction of the work, where they are clear.
+//! The f32 filter: signs of the three W_i, where they are clear.
+//!
+//! It has half the operations of the f64 filter and half their width; in scalar code a covering
+//! triangle pays for both, and that uses up what the others save.
 //!
 //! Axes are permuted cyclically so that d_z is the largest component, and space is sheared along
 //! the ray: x = a_x − (d_x/d_z)·a_z, y likewise. The shear has determinant 1 and takes d to
