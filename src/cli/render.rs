@@ -326,6 +326,9 @@ fn document(
             "f32": frame.levels.single,
             "f64": frame.levels.double,
             "exact": frame.levels.exact,
+            "pixels_f32": frame.levels.pixels_single,
+            "pixels_f64": frame.levels.pixels_double,
+            "pixels_exact": frame.levels.pixels_exact,
         },
         "picture": serde_json::from_str::<serde_json::Value>(&frame.film.description)
             .unwrap_or_default(),
