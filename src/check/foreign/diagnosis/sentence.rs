@@ -31,9 +31,9 @@ pub(super) fn sentence(
             let [x, y] = shift.map(|halves| 0.5 * f64::from(halves));
             parts.push(format!(
                 "their picture looks shifted by ({x}, {y}) px: their sample of pixel (i, j) lies at \
-                 (i + {}, j + {}) and belongs at (i + 0.5, j + 0.5)",
-                x + 0.5,
-                y + 0.5
+                 ({}, {}) and belongs at (i + 0.5, j + 0.5)",
+                place("i", x + 0.5),
+                place("j", y + 0.5)
             ));
         }
     }
@@ -60,6 +60,14 @@ pub(super) fn sentence(
         ));
     }
     parts.join("; and ")
+}
+
+/// `i + 0.5`, `i - 1.5`, or `i`.
+fn place(index: &str, offset: f64) -> String {
+    if offset == 0.0 {
+        return index.to_owned();
+    }
+    format!("{index} {} {}", if offset > 0.0 { '+' } else { '-' }, offset.abs())
 }
 
 /// The first mesh whose ids are moved, and by how much.
