@@ -15,10 +15,14 @@ use std::collections::HashSet;
 /// Seed of the sample; any number does.
 const SEED: u64 = 0x7275_6563_6173_7431;
 
-/// Chooses up to `count` pixels that are not disputed, half of them beside an id boundary.
+/// Chooses up to `count` pixels that are not disputed, half of them beside an id boundary; all of
+/// them if the window has no more than `count`.
 pub(super) fn sample(buffer: &VisibilityBuffer, disputed: &[Pixel], count: usize) -> Vec<Pixel> {
     let window = buffer.window;
     let mut taken: HashSet<Pixel> = disputed.iter().copied().collect();
+    if count >= window.len() {
+        return window.pixels().filter(|pixel| !taken.contains(pixel)).collect();
+    }
     let boundary: Vec<Pixel> =
         window.pixels().filter(|&pixel| is_beside_boundary(buffer, pixel)).collect();
     let mut random = SplitMix64(SEED);
