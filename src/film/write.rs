@@ -1,6 +1,6 @@
 //! Films to files and back: the format by name, and writes that happen wholly or not at all.
 //!
-//! A file is encoded in memory first, then written to a temporary file `.truecast-XXXXXX.part` in
+//! A file is encoded in memory first, then written to a temporary file `.truecast-*.part` in
 //! the target's folder, then renamed over the target. Whoever reads the target sees the old file or
 //! the new one, never a part. Every error removes the temporary file. A program that is killed (or
 //! leaves through `process::exit` on another thread) between creation and rename, a few

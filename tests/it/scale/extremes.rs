@@ -5,8 +5,10 @@ use super::{
     times_power_of_two, triangles_of,
 };
 use crate::support::golden;
-use crate::support::rays::{Random, exact_ray_camera};
-use crate::support::scenes::{Triangle, rectangle, scaled, standard_camera, standard_scene};
+use crate::support::rays::Random;
+use crate::support::scenes::{
+    Triangle, rectangle, scaled, single_ray, standard_camera, standard_scene,
+};
 use dashu_ratio::RBig;
 use truecast::accel::BuildPreset;
 use truecast::exact::Arbiter;
@@ -96,7 +98,7 @@ fn h73_lossy_translation() {
         let corner = |x: f64, y: f64| [x + shift, y + shift, shift].map(|c| c as f32);
         let triangle = [corner(0.0, 0.0), corner(1.0, 0.0), corner(0.0, 1.0)];
         let eye = [shift + 0.25, shift + 0.25, shift - 5.0];
-        let camera = exact_ray_camera(eye, [0.0, 0.0, 1.0]);
+        let camera = single_ray(eye, [0.0, 0.0, 1.0]);
         let buffer = agreed(&Scene::from_triangles(camera, &[triangle]));
         assert_eq!(ids(&buffer), [is_seen.then_some(0)], "{shift:e}");
         if let Some(visible) = buffer.visible[0] {
@@ -151,7 +153,7 @@ fn h76_tiny_far() {
         // between the steps of f32.
         let on = |c: f64| (c * 2.0_f64.powi(43)).round() * 2.0_f64.powi(-43);
         let direction = [on((100.0 + u) / 1024.0), on((200.0 + v) / 1024.0), 1000.0 / 1024.0];
-        let scene = Scene::from_triangles(exact_ray_camera([0.0; 3], direction), &[triangle]);
+        let scene = Scene::from_triangles(single_ray([0.0; 3], direction), &[triangle]);
         let buffer = agreed(&scene);
         let Some(visible) = buffer.visible[0] else { continue };
         let exact = Arbiter::new(&scene).answer(Pixel { x: 0, y: 0 }).visible.unwrap();
@@ -206,7 +208,7 @@ fn h78_largest() {
 /// Angles of view of 0.001° and 179°: no sample's direction is rounded, in any order of the sum.
 #[test]
 fn h79_extreme_fov() {
-    let ball = crate::support::rays::sphere(12, 24, 2.0, [0.5, 0.25, 0.0]);
+    let ball = crate::support::closed::sphere(12, 24, 2.0, [0.5, 0.25, 0.0]);
     let floor = rectangle([-1e8, -1e8], [1e8, 1e8], 3.0);
     for fov in [0.001, 0.5, 120.0, 179.0, 179.999] {
         let resolution = Resolution::new(33, 17).unwrap();

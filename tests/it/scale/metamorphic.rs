@@ -2,9 +2,9 @@
 //! change it in a known way. No reference answer is needed.
 
 use super::{Breadth, FULL, NARROW, agreed, agreed_within, assert_same, cover, ids, triangles_of};
-use crate::support::closed::integer_chaos;
+use crate::support::closed::{integer_chaos, sphere};
 use crate::support::golden;
-use crate::support::rays::{Random, closed_box, sphere, torus};
+use crate::support::rays::{Random, closed_box, torus};
 use crate::support::scenes::{
     Triangle, fan, grid_camera, pixel_grid, rectangle, standard_camera, standard_scene,
 };

@@ -1,10 +1,12 @@
 //! H50–H65: rays and scenes that a traversal loses, and that a build does not survive.
 
 use super::{Breadth, FULL, NARROW, agreed, agreed_within, assert_same, cover, ids};
+use crate::support::closed::sphere;
 use crate::support::golden;
-use crate::support::rays::{Random, exact_ray_camera, on_lattice, sphere};
+use crate::support::rays::{Random, on_lattice};
 use crate::support::scenes::{
-    Triangle, pixel_grid, rectangle, scaled, scaled_camera, standard_camera, standard_scene,
+    Triangle, pixel_grid, rectangle, scaled, scaled_camera, single_ray, standard_camera,
+    standard_scene,
 };
 use std::path::Path;
 use std::time::Instant;
@@ -23,7 +25,7 @@ fn quads_and_ray(quads: &[[Triangle; 2]], direction: [f64; 3]) -> Scene {
         let away = 100.0 + 3.0 * k as f32;
         triangles.extend(rectangle([away; 2], [away + 1.0, away + 2.0], 70.0 + away));
     }
-    Scene::from_triangles(exact_ray_camera([0.0, 0.25, 0.0], direction), &triangles)
+    Scene::from_triangles(single_ray([0.0, 0.25, 0.0], direction), &triangles)
 }
 
 /// A ray in the plane of a box's face. Four layouts: the quad to the left of the ray or to its
@@ -103,13 +105,13 @@ fn h54_flat_boxes() {
         })
         .collect();
     // In the plane of quad 0: edge-on, never visible.
-    let ahead = exact_ray_camera([0.0, 0.25, 0.0], [0.0, 0.0, 1.0]);
+    let ahead = single_ray([0.0, 0.25, 0.0], [0.0, 0.0, 1.0]);
     let mut scene = Scene::from_triangles(ahead, &quads);
     assert_eq!(ids(&agreed(&scene)), [None]);
     // From 5 leans to its left, leaning to it: plane 0 is crossed at t = 5. The least lean that
     // the lattice of a camera of size 1 holds is 2^-52 or so; 2^-149 is not a direction.
     for lean in [2.0_f64.powi(-42), 2.0_f64.powi(-48)] {
-        scene.camera = exact_ray_camera([-5.0 * lean, 0.25, 0.0], [lean, 0.0, 1.0]);
+        scene.camera = single_ray([-5.0 * lean, 0.25, 0.0], [lean, 0.0, 1.0]);
         let buffer = agreed(&scene);
         assert!(ids(&buffer)[0].is_some_and(|id| id < 2));
         assert_eq!(cover(&buffer, 0).crossed, 1);
@@ -160,7 +162,7 @@ fn h56_two_ulp_padding() {
         let lean = if (to[0] < 0.0) == (to[1] < 0.0) { 1.0 } else { -1.0 };
         let mut triangles = leaves_of_an_edge(at, lean).to_vec();
         triangles.extend(&bystanders);
-        let scene = Scene::from_triangles(exact_ray_camera(eye, direction), &triangles);
+        let scene = Scene::from_triangles(single_ray(eye, direction), &triangles);
         let breadth = Breadth { presets: &[BuildPreset::Fastest], ..NARROW };
         let buffer = agreed_within(&scene, &breadth, &format!("ray {number}"));
         assert_eq!(cover(&buffer, 0).crossed, 1, "ray {number}");
@@ -178,7 +180,7 @@ fn h56_two_ulp_padding() {
     let slab = [[lo_x, hi_y, -1.0], [lo_x, hi_y, 1.0], [lo_x + 1.0, hi_y - 1.0, 0.0]];
     let mut triangles = vec![slab];
     triangles.extend(&bystanders);
-    let buffer = agreed(&Scene::from_triangles(exact_ray_camera(eye, direction), &triangles));
+    let buffer = agreed(&Scene::from_triangles(single_ray(eye, direction), &triangles));
     assert_eq!(ids(&buffer), [Some(0)]);
 }
 
@@ -197,7 +199,7 @@ fn h57_aimed_sphere() {
         let target = triangles[(number * 7919) % triangles.len()][number % 3].map(f64::from);
         let eye: [f64; 3] = std::array::from_fn(|_| random.step() - 0.5);
         let direction = std::array::from_fn(|k| f64::from((target[k] - eye[k]) as f32));
-        scene.camera = exact_ray_camera(eye, direction);
+        scene.camera = single_ray(eye, direction);
         let ask = |tree: &Accelerator| cast(&scene, tree, window, Counting::All, &|| ());
         let answers = [ask(&trees[0]), ask(&trees[1])];
         assert_eq!(cover(&answers[0], 0).signed, 1, "ray {number}");

@@ -1,26 +1,8 @@
-//! Rays aimed exactly, a fixed sequence of numbers, and spheres to aim at.
+//! A fixed sequence of numbers, lattice rounding, and closed surfaces to aim at.
 //!
 //! No expectation lives here.
 
 use super::scenes::Triangle;
-use truecast::pixel::Resolution;
-use truecast::scene::camera::PinholeCamera;
-
-/// A camera of one pixel whose sample looks from `eye` along `direction`, bit for bit.
-pub(crate) fn exact_ray_camera(eye: [f64; 3], direction: [f64; 3]) -> PinholeCamera {
-    let largest = direction.iter().fold(0.0_f64, |m, c| m.max(c.abs()));
-    let step = 2.0_f64.powi(largest.log2().floor() as i32 - 2);
-    // The steps span the plane across the largest component.
-    let along = (0..3).find(|&k| direction[k].abs() == largest).unwrap();
-    let axis = |k: usize| std::array::from_fn(|i| if i == k % 3 { step } else { 0.0 });
-    let (dx, dy): ([f64; 3], [f64; 3]) = (axis(along + 1), axis(along + 2));
-    let d0 = std::array::from_fn(|k| direction[k] - 0.5 * dx[k] - 0.5 * dy[k]);
-    let camera = PinholeCamera::exact(Resolution::new(1, 1).unwrap(), eye, d0, dx, dy).unwrap();
-    let sample: [f64; 3] =
-        std::array::from_fn(|k| camera.d0()[k] + 0.5 * camera.dx()[k] + 0.5 * camera.dy()[k]);
-    assert_eq!(sample, direction, "the camera keeps the direction");
-    camera
-}
 
 /// The nearest multiple of 2^-50, which the lattice of a camera of size 1 keeps.
 pub(crate) fn on_lattice(value: f64) -> f64 {
@@ -66,38 +48,6 @@ impl Random {
             list.swap(last, self.below(last + 1));
         }
     }
-}
-
-/// A UV sphere about `center`, closed, counter-clockwise from outside, its corners on multiples of
-/// 2^-24 so that differences keep a camera's lattice.
-pub(crate) fn sphere(rings: u32, segments: u32, radius: f64, center: [f64; 3]) -> Vec<Triangle> {
-    let corner = |ring: u32, segment: u32| -> [f32; 3] {
-        let polar = std::f64::consts::PI * f64::from(ring) / f64::from(rings);
-        let around = std::f64::consts::TAU * f64::from(segment % segments) / f64::from(segments);
-        let direction = if ring == 0 || ring == rings {
-            [0.0, 0.0, if ring == 0 { 1.0 } else { -1.0 }]
-        } else {
-            [polar.sin() * around.cos(), polar.sin() * around.sin(), polar.cos()]
-        };
-        let grid = f64::from(1 << 24);
-        std::array::from_fn(|k| {
-            (((center[k] + radius * direction[k]) * grid).round() / grid) as f32
-        })
-    };
-    let mut triangles = Vec::new();
-    for ring in 0..rings {
-        for segment in 0..segments {
-            let [a, b] = [corner(ring, segment), corner(ring, segment + 1)];
-            let [c, d] = [corner(ring + 1, segment), corner(ring + 1, segment + 1)];
-            if ring > 0 {
-                triangles.push([a, c, b]);
-            }
-            if ring + 1 < rings {
-                triangles.push([b, c, d]);
-            }
-        }
-    }
-    triangles
 }
 
 /// An upright torus about the z axis through the origin, closed, counter-clockwise from outside.
