@@ -85,8 +85,24 @@ pub enum Source {
 /// How normals vary over a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shading {
-    /// Corner normals are interpolated and made unit at each sample.
+    /// Corner normals are interpolated, and each sample is lit.
     Phong,
+    /// The corners are lit, and their colours interpolated.
+    Gouraud,
+    /// One normal for the whole triangle; what that means, the switch `flat` says.
+    Flat,
+    /// The colours of the vertices are interpolated; nothing is lit.
+    VertexColor,
+}
+
+impl Shading {
+    /// Every way with its word in scene files.
+    pub const NAMED: [(Self, &'static str); 4] = [
+        (Self::Phong, "phong"),
+        (Self::Gouraud, "gouraud"),
+        (Self::Flat, "flat"),
+        (Self::VertexColor, "vertex-color"),
+    ];
 }
 
 /// Whether the shading normal turns towards the eye.

@@ -7,18 +7,23 @@
 
 pub mod blinn_phong;
 mod calls;
+mod corners;
 pub mod effects;
 mod equation;
+pub mod hemisphere;
 mod kernel;
 mod lights;
+mod method;
 pub mod reflection;
 pub mod surface;
 pub mod terms;
 mod vector;
 pub mod watch;
+mod weights;
 
 pub use calls::{Call, explain};
 pub use effects::Effects;
+pub use kernel::Occlusion;
 pub use surface::{SurfacePoint, surface_point};
 pub use terms::{LightTerm, Outcome, Terms};
 pub use watch::{Evaluations, Notes};
@@ -28,10 +33,12 @@ use crate::pixel::{self, Pixel};
 use crate::scene::Scene;
 use crate::scene::material::Material;
 use crate::visibility::{VisibilityBuffer, Visible};
-use equation::{Geometry, KernelEffects};
+use equation::{Coefficients, Geometry, KernelEffects, NEVER_HIDDEN};
 use kernel::Frame;
+use method::Method;
 use std::sync::Mutex;
 use watch::{Nobody, Watch};
+use weights::weights;
 
 /// A shaded window.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,14 +54,29 @@ pub struct Shaded {
 ///
 /// `effects` is what is evaluated: with every set that contains [`Effects::of`] the picture is
 /// the same bit for bit, a smaller one leaves those terms out. `done` is called once per finished
-/// row, from any thread. The buffer must be an answer about this scene.
+/// row, from any thread. The buffer must be an answer about this scene. Nothing casts a shadow; see
+/// [`shade_with_shadows`].
 pub fn shade(
     scene: &Scene,
     buffer: &VisibilityBuffer,
     effects: Effects,
     done: &(dyn Fn() + Sync),
 ) -> Shaded {
-    let (radiance, notes) = shade_rows(scene, buffer, effects, done, Notes::add);
+    let (radiance, notes) = shade_rows(scene, buffer, effects, None, done, Notes::add);
+    Shaded { radiance, notes }
+}
+
+/// As [`shade`], with the shadows of the lights that cast some: `occlusion` is asked whether a
+/// light is hidden, from any thread, and only where the light would reach the surface.
+pub fn shade_with_shadows(
+    scene: &Scene,
+    buffer: &VisibilityBuffer,
+    effects: Effects,
+    occlusion: Occlusion<'_>,
+    done: &(dyn Fn() + Sync),
+) -> Shaded {
+    let occlusion = Some(occlusion);
+    let (radiance, notes) = shade_rows(scene, buffer, effects, occlusion, done, Notes::add);
     Shaded { radiance, notes }
 }
 
@@ -64,7 +86,7 @@ pub fn count_evaluations(
     buffer: &VisibilityBuffer,
     effects: Effects,
 ) -> Evaluations {
-    shade_rows(scene, buffer, effects, &|| (), Evaluations::add).1
+    shade_rows(scene, buffer, effects, None, &|| (), Evaluations::add).1
 }
 
 /// Shades all rows, each with a watcher of its own; the watchers are added up, in any order.
@@ -72,12 +94,13 @@ fn shade_rows<W: Watch + Default + Copy + Send>(
     scene: &Scene,
     buffer: &VisibilityBuffer,
     effects: Effects,
+    occlusion: Option<Occlusion<'_>>,
     done: &(dyn Fn() + Sync),
     add: fn(&mut W, W),
 ) -> (Vec<LinearRgb>, W) {
     let window = buffer.window;
     let width = window.width() as usize;
-    let frame = Frame::new(scene, effects);
+    let frame = Frame::new(scene, effects, occlusion);
     let shade_row = kernel::row_kernel::<W>(effects);
     let total = Mutex::new(W::default());
     let mut radiance = vec![[0.0; 3]; window.len()];
@@ -97,40 +120,93 @@ fn shade_rows<W: Watch + Default + Copy + Send>(
     (radiance, total)
 }
 
-/// The radiance of one surface point under all lights of the scene, with every effect on.
+/// The radiance of one surface point under all lights of the scene, with every effect on and
+/// nothing between it and the lights.
 pub fn shade_point(scene: &Scene, point: &SurfacePoint, material: &Material) -> LinearRgb {
-    let frame = Frame::new(scene, Effects::ALL);
+    let frame = Frame::new(scene, Effects::ALL, None);
+    let coefficients = Coefficients::of(material, frame.rules);
+    let geometry = Geometry {
+        position: point.position,
+        to_eye: point.to_eye,
+        normal: point.shading_normal,
+        normal_length: 1.0,
+        mixture: None,
+    };
     equation::radiance_of::<{ KernelEffects::ALL }, _>(
         &frame,
-        material,
-        Some(&Geometry::of(point)),
+        &coefficients,
+        Some(&geometry),
+        NEVER_HIDDEN,
         &mut Nobody,
     )
 }
 
-/// The radiance of one visible pixel, as [`shade`] computes it.
-pub fn shade_visible(scene: &Scene, pixel: Pixel, visible: &Visible) -> LinearRgb {
-    terms(scene, pixel, visible).sum()
+/// The radiance of one visible pixel, as [`shade_with_shadows`] computes it.
+pub fn shade_visible(
+    scene: &Scene,
+    pixel: Pixel,
+    visible: &Visible,
+    occlusion: Option<Occlusion<'_>>,
+) -> LinearRgb {
+    terms(scene, pixel, visible, occlusion).sum()
 }
 
 /// Every light's term at a visible pixel; their sum is the shaded pixel bit for bit.
-pub fn terms(scene: &Scene, pixel: Pixel, visible: &Visible) -> Terms {
+pub fn terms(
+    scene: &Scene,
+    pixel: Pixel,
+    visible: &Visible,
+    occlusion: Option<Occlusion<'_>>,
+) -> Terms {
+    const ALL: u8 = KernelEffects::ALL;
     let (surface, _) = surface_point(scene, pixel, visible);
+    let (object, _) = scene.object_of(visible.triangle);
     let (_, material) = scene.material_of(visible.triangle);
-    let frame = Frame::new(scene, Effects::ALL);
-    let mut lights = vec![LightTerm::DARK; scene.lights.len()];
-    let geometry = Geometry::of(&surface);
-    equation::radiance_of::<{ KernelEffects::ALL }, _>(
-        &frame,
-        material,
-        Some(&geometry),
-        &mut lights,
-    );
-    Terms { surface, emission: material.ke, lights }
-}
-
-impl Geometry {
-    fn of(point: &SurfacePoint) -> Self {
-        Self { position: point.position, to_eye: point.to_eye, normal: point.shading_normal }
-    }
+    let frame = Frame::new(scene, Effects::ALL, occlusion);
+    let coefficients = Coefficients::of(material, frame.rules);
+    let is_hidden = |light| frame.is_hidden(pixel, visible, light);
+    let lights_at = |geometry: Option<&Geometry>| {
+        let mut lights = vec![LightTerm::DARK; scene.lights.len()];
+        equation::radiance_of::<ALL, _>(&frame, &coefficients, geometry, &is_hidden, &mut lights);
+        lights
+    };
+    let method = frame.methods[object];
+    let mut elsewhere = Vec::new();
+    let lights = match method {
+        Method::VertexColors => vec![LightTerm::DARK; scene.lights.len()],
+        Method::SmoothPixel | Method::FlatPixel => {
+            let is_smooth = method == Method::SmoothPixel;
+            let geometry = kernel::geometry_at_pixel::<ALL, _>(
+                &frame,
+                pixel,
+                visible,
+                is_smooth,
+                &coefficients,
+                &mut Nobody,
+            );
+            lights_at(geometry.as_ref())
+        }
+        Method::SmoothCorners | Method::FlatCorners => {
+            let weights = weights(scene, visible, &mut Nobody);
+            let is_smooth = method == Method::SmoothCorners;
+            elsewhere.extend(weights.into_iter().enumerate().map(|(corner, weight)| {
+                let point = corners::at_corner(&frame, visible, corner, is_smooth, &mut Nobody);
+                (weight, lights_at(Some(&point)))
+            }));
+            elsewhere[2].1.clone()
+        }
+        Method::Centroid | Method::LastCorner => {
+            let point = match method {
+                Method::Centroid => corners::at_centroid(&frame, visible, &mut Nobody),
+                _ => corners::at_corner(&frame, visible, 2, true, &mut Nobody),
+            };
+            elsewhere.push((1.0, lights_at(Some(&point))));
+            elsewhere[0].1.clone()
+        }
+    };
+    let emission = match method {
+        Method::VertexColors => material.kd,
+        _ => coefficients.emission,
+    };
+    Terms { surface, emission, lights, elsewhere }
 }

@@ -119,7 +119,7 @@ fn is_wrong(scene: &Scene, answered: &Answered, difference: Difference, exact: &
     let (ns, radiance) = match visible_of(exact).0 {
         Some(visible) => (
             scene.material_of(visible.triangle).1.ns,
-            shade::shade_visible(scene, difference.pixel, &visible),
+            shade::shade_visible(scene, difference.pixel, &visible, None),
         ),
         None => (0.0, scene.background),
     };

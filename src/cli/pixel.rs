@@ -47,7 +47,8 @@ pub(super) fn run(arguments: &PixelArguments) -> Result<u8, Failure> {
 fn explain(scene: &Scene, pixel: Pixel) -> Explained {
     let arbiter = Arbiter::new(scene);
     let answer = arbiter.answer(pixel);
-    let visible = visible_of(&answer).0.map(|visible| (visible, terms(scene, pixel, &visible)));
+    let visible =
+        visible_of(&answer).0.map(|visible| (visible, terms(scene, pixel, &visible, None)));
     let [x, y] = pixel.sample();
     let camera = &scene.camera;
     // Exact: the camera is on its lattice.

@@ -26,6 +26,9 @@ pub(crate) struct Piece<'a> {
     pub(crate) transform: Transform,
     pub(crate) name: String,
     pub(crate) sides: Sides,
+    pub(crate) shading: Shading,
+    /// Whether normals are transformed like directions.
+    pub(crate) naive_normals: bool,
     pub(crate) source: Source,
     /// Per triangle, position in the scene's materials.
     pub(crate) materials: Vec<u32>,
@@ -61,7 +64,7 @@ impl Assembly {
         }
         let positions = world_positions(part, &piece.transform)?;
         let mirrored = piece.transform.orientation < 0;
-        self.append_normals(part, &piece.transform);
+        self.append_normals(part, &piece.transform, piece.naive_normals);
         self.append_uvs(part, mirrored);
         let offset = self.mesh.positions.len() as u32;
         self.mesh.positions.extend(positions);
@@ -72,7 +75,7 @@ impl Assembly {
         self.objects.push(Object {
             name: piece.name,
             triangles: id_range(first, self.mesh.corners.len()),
-            shading: Shading::Phong,
+            shading: piece.shading,
             sides: piece.sides,
             source: piece.source,
         });
@@ -81,7 +84,7 @@ impl Assembly {
 
     /// Corner normals; one that the transform leaves no direction becomes "no normal". Called
     /// while `corners` still ends before this part.
-    fn append_normals(&mut self, part: &MeshPart, transform: &Transform) {
+    fn append_normals(&mut self, part: &MeshPart, transform: &Transform, naive: bool) {
         if part.corner_normals.is_empty() {
             return;
         }
@@ -89,7 +92,8 @@ impl Assembly {
         self.mesh.corner_normals.resize(self.mesh.corners.len(), [NO_ATTRIBUTE; 3]);
         let mut indices = Vec::with_capacity(part.normals.len());
         for &normal in &part.normals {
-            indices.push(match transform.normal(normal) {
+            let moved = if naive { transform.direction(normal) } else { transform.normal(normal) };
+            indices.push(match moved {
                 Some(unit) => {
                     self.mesh.normals.push(unit);
                     self.mesh.normals.len() as u32 - 1

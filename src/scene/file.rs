@@ -18,7 +18,7 @@
 //! | key | default | meaning |
 //! |---|---|---|
 //! | `version` | must | 1 |
-//! | `dialect` | `"curless"` | preset of all switches; this version simulates `curless` alone |
+//! | `dialect` | `"curless"` | preset of all switches: `curless`, `angel`, `iit`, `cs315`, `opengl` |
 //! | `image` | must | table: the picture |
 //! | `camera` | must | table: the camera, in exactly one of its four forms |
 //! | `material` | none | list of tables: the materials |
@@ -59,13 +59,13 @@
 //! | `mesh.file` | this or `shape` | an OBJ file |
 //! | `mesh.shape` | this or `file` | `{ NAME = { … } }`: a generated mesh, see [`shape`] |
 //! | `mesh.material` | the file's own, else the default one | name of a material |
-//! | `mesh.shading` | `"phong"` | only `"phong"` is simulated by this version |
+//! | `mesh.shading` | `"phong"` | `phong`: normals are interpolated; `gouraud`: colours lit at the corners are; `flat`: one normal per triangle; `vertex-color`: the vertices' colours, unlit |
 //! | `mesh.sides` | `"single"` | `"double"`: the shading normal turns towards the eye |
 //! | `mesh.scale` | 1 | factor, or a vector of them; applied first |
 //! | `mesh.rotate_deg` | `[0, 0, 0]` | right-handed angles about x, then y, then z |
 //! | `mesh.translate` | `[0, 0, 0]` | displacement; applied last |
 //! | `mesh.matrix` | none | the whole transform, 4×4, last row 0 0 0 1; instead of the other three |
-//! | `light.type` | must | `ambient`, `directional`, `point` or `spot`; `hemisphere` is not simulated |
+//! | `light.type` | must | `ambient`, `directional`, `point`, `spot` or `hemisphere` |
 //! | `light.position` | must | point, spot: where it is |
 //! | `light.target` | this or `aim` | spot: the point that it aims at |
 //! | `light.aim` | must | directional, spot: the way the light travels |
@@ -76,24 +76,36 @@
 //! | `light.attenuation` | `[1, 0, 0]` | point, spot: a, b, c of 1/(a + b·r + c·r²), each ≥ 0, not all 0 |
 //! | `light.cutoff_deg` | must | spot: from the axis to the rim, 0 < angle ≤ 180; 180 is no cone |
 //! | `light.exponent` | 0 | spot: e of (L·S)^e, at least 0 |
-//! | `light.shadows` | false | only false is simulated by this version |
+//! | `light.shadows` | false | directional, point, spot: whether opaque surfaces stop its diffuse and specular parts |
 //! | `light.direction` | must | hemisphere: towards the top colour |
 //! | `light.top` | must | hemisphere: RGB |
 //! | `light.bottom` | must | hemisphere: RGB |
-//! | `switches.backlit_specular` | `"le0"` | where there is no specular: `le0`, `lt0`, `none` |
+//! | `switches.backlit_specular` | `"le0"` | specular is dark where N·L ≤ 0 (`le0`), where N·L < 0 (`lt0`), nowhere (`none`) |
 //! | `switches.attenuate_ambient` | false | whether distance and cone weaken a light's own ambient |
-//! | `switches.ka` | `"own"` | `own`, `kd` |
-//! | `switches.specular` | `"blinn"` | `blinn`, `phong` |
-//! | `switches.specular_cosine` | false | specular × N·L |
-//! | `switches.viewer` | `"local"` | `local`, `distant` |
-//! | `switches.interpolation` | `"perspective"` | `perspective`, `screen` |
+//! | `switches.ka` | `"own"` | `own`, or `kd` in place of `ka` |
+//! | `switches.specular` | `"blinn"` | `blinn`: (N·H)^ns; `phong`: (V·R)^ns |
+//! | `switches.specular_cosine` | false | specular × N·L, the form of a BRDF |
+//! | `switches.viewer` | `"local"` | `local`, or `distant`: V against the view axis everywhere |
+//! | `switches.interpolation` | `"perspective"` | of colours, normals and uv: `perspective`, or `screen`: linear on the screen |
 //! | `switches.renormalize` | true | make the interpolated normal unit |
-//! | `switches.fragment_vectors` | `"recompute"` | `recompute`, `interpolate` |
-//! | `switches.flat` | `"face-normal"` | `face-normal`, `one-point`, `vertex-face-normal`, `provoking` |
-//! | `switches.hemisphere` | `"cosine"` | `cosine`, `sine`, `linear` |
+//! | `switches.fragment_vectors` | `"recompute"` | L and V at each point, or `interpolate` them from the corners |
+//! | `switches.flat` | `"face-normal"` | `face-normal`: lit at every pixel; `one-point`: once, at the centroid; `vertex-face-normal`: at the corners; `provoking`: the last corner's colour |
+//! | `switches.hemisphere` | `"cosine"` | the blend over the angle: `cosine`, `sine`, `linear` |
 //! | `switches.naive_normals` | false | transform normals like directions |
 //!
-//! This version simulates every switch at `curless`' value, which is the default shown.
+//! The defaults of switches are those of `curless`. The presets:
+//!
+//! | switch | curless | angel | iit | cs315 | opengl |
+//! |---|---|---|---|---|---|
+//! | backlit_specular | le0 | lt0 | le0 | none | le0 |
+//! | attenuate_ambient | false | false | false | true | true |
+//! | specular | blinn | blinn | phong | blinn | blinn |
+//! | viewer | local | local | local | local | distant |
+//! | interpolation | perspective | perspective | screen | perspective | perspective |
+//! | fragment_vectors | recompute | interpolate | recompute | recompute | recompute |
+//! | flat | face-normal | one-point | one-point | vertex-face-normal | provoking |
+//!
+//! The other switches are the same in all of them.
 
 mod camera;
 mod generated;

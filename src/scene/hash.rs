@@ -67,12 +67,14 @@ fn hash_light(hash: &mut Sha256, light: &Light) {
             hash.update(b"directional");
             floats(hash, &directional.aim);
             hash_colors(hash, &directional.colors);
+            hash.update([u8::from(directional.shadows)]);
         }
         Light::Point(point) => {
             hash.update(b"point");
             floats(hash, &point.position);
             floats(hash, &point.attenuation);
             hash_colors(hash, &point.colors);
+            hash.update([u8::from(point.shadows)]);
         }
         Light::Spot(spot) => {
             hash.update(b"spot");
@@ -81,6 +83,13 @@ fn hash_light(hash: &mut Sha256, light: &Light) {
             floats(hash, &spot.attenuation);
             floats(hash, &[spot.cutoff_deg, spot.exponent]);
             hash_colors(hash, &spot.colors);
+            hash.update([u8::from(spot.shadows)]);
+        }
+        Light::Hemisphere(hemisphere) => {
+            hash.update(b"hemisphere");
+            for values in [hemisphere.up, hemisphere.top, hemisphere.bottom] {
+                floats(hash, &values);
+            }
         }
     }
 }

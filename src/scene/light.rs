@@ -13,12 +13,37 @@ pub enum Light {
     Point(PointLight),
     /// Light from a point, in a cone.
     Spot(SpotLight),
+    /// Light from two opposite half spaces.
+    Hemisphere(HemisphereLight),
+}
+
+impl Light {
+    /// The word for its type in scene files.
+    pub const fn kind(&self) -> &'static str {
+        match self {
+            Self::Ambient(_) => "ambient",
+            Self::Directional(_) => "directional",
+            Self::Point(_) => "point",
+            Self::Spot(_) => "spot",
+            Self::Hemisphere(_) => "hemisphere",
+        }
+    }
+
+    /// Whether its diffuse and specular parts stop at opaque surfaces.
+    pub const fn casts_shadows(&self) -> bool {
+        match self {
+            Self::Ambient(_) | Self::Hemisphere(_) => false,
+            Self::Directional(light) => light.shadows,
+            Self::Point(light) => light.shadows,
+            Self::Spot(light) => light.shadows,
+        }
+    }
 }
 
 /// The three colours that a light with a direction sends out; each finite and at least 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LightColors {
-    /// I_a: its own ambient part; neither attenuated nor gated.
+    /// I_a: its own ambient part; never gated, and attenuated only where a switch says so.
     pub ambient: LinearRgb,
     /// I_d: diffuse part.
     pub diffuse: LinearRgb,
@@ -40,6 +65,8 @@ pub struct DirectionalLight {
     pub aim: [f64; 3],
     /// Colours.
     pub colors: LightColors,
+    /// Whether opaque surfaces stop its diffuse and specular parts.
+    pub shadows: bool,
 }
 
 /// A light at a point.
@@ -51,6 +78,8 @@ pub struct PointLight {
     pub attenuation: [f64; 3],
     /// Colours.
     pub colors: LightColors,
+    /// Whether opaque surfaces stop its diffuse and specular parts.
+    pub shadows: bool,
 }
 
 /// A spotlight: a point light times (L·S)^e inside its cone, S = −aim.
@@ -69,4 +98,18 @@ pub struct SpotLight {
     pub exponent: f64,
     /// Colours.
     pub colors: LightColors,
+    /// Whether opaque surfaces stop its diffuse and specular parts.
+    pub shadows: bool,
+}
+
+/// Two-coloured light from all around: kd · (a · top + (1 − a) · bottom), where a falls from 1 for
+/// normals towards `up` to 0 for those away from it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct HemisphereLight {
+    /// Unit direction towards the top colour.
+    pub up: [f64; 3],
+    /// Colour of the half space around `up`.
+    pub top: LinearRgb,
+    /// Colour of the other half space.
+    pub bottom: LinearRgb,
 }

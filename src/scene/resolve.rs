@@ -33,7 +33,8 @@ pub(super) fn scene(
     let camera = camera::resolve(file, overrides, faults);
     let mut materials = material::resolve(file, faults);
     let lights = file.lights.iter().filter_map(|light| light::resolve(light, faults)).collect();
-    let assembly = mesh::resolve(file, base, &mut materials, faults);
+    let naive_normals = switches.rules().naive_normals;
+    let assembly = mesh::resolve(file, base, &mut materials, naive_normals, faults);
     Some(Scene {
         camera: camera?,
         background,

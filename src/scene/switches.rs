@@ -1,7 +1,6 @@
 //! Where the course texts disagree, a switch decides; a dialect is a preset of all switches.
 //!
-//! This version simulates the dialect `curless` alone. The words and presets of the others stand
-//! here all the same, so that a scene that asks for them is refused by name.
+//! The words stand here, and what they mean as types ([`Rules`]); `shade` acts on them.
 
 use std::fmt;
 
@@ -87,17 +86,52 @@ pub struct Switches {
     /// The dialect that the scene names, or the default one.
     pub dialect: &'static str,
     /// Name and value of every switch, in the order of [`SWITCHES`].
-    pub values: [(&'static str, SwitchValue); 12],
+    values: [(&'static str, SwitchValue); 12],
+    /// What the values mean; always follows them.
+    rules: Rules,
 }
 
 impl Default for Switches {
     /// The dialect `curless`.
     fn default() -> Self {
-        Self { dialect: DIALECTS[0], values: SWITCHES.map(|s| (s.name, s.presets[0])) }
+        Self::preset(0)
     }
 }
 
 impl Switches {
+    /// The preset of a dialect, or `None` when there is no dialect of that name.
+    pub fn of_dialect(name: &str) -> Option<Self> {
+        let position = DIALECTS.iter().position(|known| *known == name)?;
+        Some(Self::preset(position))
+    }
+
+    fn preset(position: usize) -> Self {
+        let values = SWITCHES.map(|switch| (switch.name, switch.presets[position]));
+        Self { dialect: DIALECTS[position], values, rules: Rules::of(&values) }
+    }
+
+    /// These switches with one of them set; unchanged where there is no switch of that name or it
+    /// does not know the value.
+    #[must_use]
+    pub fn with(mut self, name: &str, value: SwitchValue) -> Self {
+        let knows = |switch: &Switch| match value {
+            SwitchValue::Is(_) => switch.words.is_empty(),
+            SwitchValue::Word(word) => switch.words.contains(&word),
+        };
+        for (slot, switch) in self.values.iter_mut().zip(&SWITCHES) {
+            if switch.name == name && knows(switch) {
+                slot.1 = value;
+            }
+        }
+        self.rules = Rules::of(&self.values);
+        self
+    }
+
+    /// What the words mean.
+    pub const fn rules(&self) -> &Rules {
+        &self.rules
+    }
+
     /// The value of a switch, or `None` when there is no switch of that name.
     pub fn get(&self, name: &str) -> Option<SwitchValue> {
         self.values.iter().find(|(known, _)| *known == name).map(|&(_, value)| value)
@@ -111,6 +145,120 @@ impl Switches {
         };
         self.values.iter().map(|&(name, v)| (name.to_owned(), value(v))).collect()
     }
+}
+
+/// The switches as shading acts on them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Rules {
+    /// Where the specular part is dark.
+    pub backlit_specular: BacklitSpecular,
+    /// A positional light's own ambient is multiplied by its f.
+    pub attenuate_ambient: bool,
+    /// k_a is k_d.
+    pub ambient_by_diffuse: bool,
+    /// Which lobe.
+    pub specular: SpecularModel,
+    /// The specular part is multiplied by (N·L)_+.
+    pub specular_cosine: bool,
+    /// V is the direction against the view axis, everywhere.
+    pub distant_viewer: bool,
+    /// Colours, normals and texture coordinates are interpolated linearly on the screen.
+    pub screen_interpolation: bool,
+    /// The interpolated normal is made unit.
+    pub renormalize: bool,
+    /// L and V are mixed from those of the corners.
+    pub interpolate_vectors: bool,
+    /// What flat shading means.
+    pub flat: FlatMeaning,
+    /// The blend of hemisphere lights.
+    pub hemisphere: HemisphereCurve,
+    /// Normals are transformed like directions.
+    pub naive_normals: bool,
+}
+
+impl Rules {
+    fn of(values: &[(&'static str, SwitchValue)]) -> Self {
+        let get = |name| values.iter().find(|(known, _)| *known == name).map(|&(_, value)| value);
+        let is = |name| get(name) == Some(SwitchValue::Is(true));
+        let word = |name| match get(name) {
+            Some(SwitchValue::Word(word)) => word,
+            _ => "",
+        };
+        Self {
+            backlit_specular: match word("backlit_specular") {
+                "lt0" => BacklitSpecular::DarkBelow,
+                "none" => BacklitSpecular::NeverDark,
+                _ => BacklitSpecular::DarkUpTo,
+            },
+            attenuate_ambient: is("attenuate_ambient"),
+            ambient_by_diffuse: word("ka") == "kd",
+            specular: match word("specular") {
+                "phong" => SpecularModel::Phong,
+                _ => SpecularModel::Blinn,
+            },
+            specular_cosine: is("specular_cosine"),
+            distant_viewer: word("viewer") == "distant",
+            screen_interpolation: word("interpolation") == "screen",
+            renormalize: is("renormalize"),
+            interpolate_vectors: word("fragment_vectors") == "interpolate",
+            flat: match word("flat") {
+                "one-point" => FlatMeaning::OnePoint,
+                "vertex-face-normal" => FlatMeaning::VertexFaceNormal,
+                "provoking" => FlatMeaning::Provoking,
+                _ => FlatMeaning::FaceNormal,
+            },
+            hemisphere: match word("hemisphere") {
+                "sine" => HemisphereCurve::Sine,
+                "linear" => HemisphereCurve::Linear,
+                _ => HemisphereCurve::Cosine,
+            },
+            naive_normals: is("naive_normals"),
+        }
+    }
+}
+
+/// Where the specular part is dark.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum BacklitSpecular {
+    /// Where N·L ≤ 0 (`le0`).
+    DarkUpTo,
+    /// Where N·L < 0 (`lt0`): at N·L = 0 the highlight survives.
+    DarkBelow,
+    /// Nowhere (`none`): highlights leak onto faces that are turned away.
+    NeverDark,
+}
+
+/// Which specular lobe.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SpecularModel {
+    /// (N·H)^ns.
+    Blinn,
+    /// (V·R)^ns.
+    Phong,
+}
+
+/// What flat shading means.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FlatMeaning {
+    /// Lit at every pixel with the face normal.
+    FaceNormal,
+    /// Lit once, at the centroid, with the face normal.
+    OnePoint,
+    /// Lit at the corners with the face normal, colours interpolated.
+    VertexFaceNormal,
+    /// The last corner's colour, lit with its own normal.
+    Provoking,
+}
+
+/// The blend of hemisphere lights as a function of the angle θ between normal and top.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HemisphereCurve {
+    /// a = ½ + ½ cos θ.
+    Cosine,
+    /// a = 1 − ½ sin θ up to 90°, ½ sin θ beyond.
+    Sine,
+    /// a = 1 − θ/180°.
+    Linear,
 }
 
 #[cfg(test)]
@@ -138,5 +286,31 @@ mod tests {
         assert_eq!(switches.get("backlit_specular"), Some(SwitchValue::Word("le0")));
         assert_eq!(switches.get("renormalize"), Some(SwitchValue::Is(true)));
         assert_eq!(switches.get("lens"), None);
+    }
+
+    #[test]
+    fn dialects_are_their_columns_and_each_switch_moves_alone() {
+        let iit = Switches::of_dialect("iit").unwrap();
+        assert_eq!(iit.get("specular"), Some(SwitchValue::Word("phong")));
+        assert_eq!(iit.get("interpolation"), Some(SwitchValue::Word("screen")));
+        assert_eq!(iit.rules().flat, FlatMeaning::OnePoint);
+        assert!(Switches::of_dialect("opengl").unwrap().rules().distant_viewer);
+        assert_eq!(Switches::of_dialect("phong"), None);
+        // Every word of every switch changes the rules, and a value of another kind nothing.
+        for switch in SWITCHES {
+            let values: Vec<SwitchValue> = match switch.words {
+                [] => vec![SwitchValue::Is(false), SwitchValue::Is(true)],
+                words => words.iter().map(|word| SwitchValue::Word(word)).collect(),
+            };
+            let rules: Vec<Rules> = values
+                .iter()
+                .map(|&value| *Switches::default().with(switch.name, value).rules())
+                .collect();
+            for (i, a) in rules.iter().enumerate() {
+                assert!(!rules[..i].contains(a), "{}: {a:?}", switch.name);
+            }
+            let strange = Switches::default().with(switch.name, SwitchValue::Word("strange"));
+            assert_eq!(strange, Switches::default());
+        }
     }
 }

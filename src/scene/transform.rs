@@ -53,6 +53,11 @@ impl Transform {
         [x + tx, y + ty, z + tz]
     }
 
+    /// A direction in world space, made unit; `None` where the transform leaves none.
+    pub(crate) fn direction(&self, d: [f64; 3]) -> Option<[f64; 3]> {
+        unit(apply(scaled_to_one(self.linear), d))
+    }
+
     /// A unit normal in world space; `None` where the transform leaves none.
     pub(crate) fn normal(&self, n: [f64; 3]) -> Option<[f64; 3]> {
         unit(apply(self.normals, n))

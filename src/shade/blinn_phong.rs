@@ -32,6 +32,19 @@ pub(super) fn lobe(q: f64, exponent: f64) -> f64 {
     }
 }
 
+/// (|N|·cos θ)_+^exponent for a vector whose length was left below 1: `length` in 0…1.
+pub(super) fn shortened_lobe(q: f64, length: f64, exponent: f64) -> f64 {
+    if length == 1.0 {
+        lobe(q, exponent)
+    } else if exponent == 0.0 {
+        1.0
+    } else if q >= 1.0 || length <= 0.0 {
+        0.0
+    } else {
+        libm::exp(exponent * (libm::log1p(-q) + libm::log(length)))
+    }
+}
+
 /// H, the unit vector halfway between two unit vectors; `None` where they are opposite.
 pub fn halfway(l: [f64; 3], v: [f64; 3]) -> Option<[f64; 3]> {
     let sum = vector::add(l, v);

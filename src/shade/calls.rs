@@ -5,11 +5,13 @@
 
 use super::effects::Effects;
 use super::lights::is_black;
+use super::method::Method;
 use crate::color::LinearRgb;
 use crate::mesh::NO_ATTRIBUTE;
 use crate::scene::Scene;
 use crate::scene::light::{Light, LightColors};
 use crate::scene::material::Material;
+use crate::scene::switches::Rules;
 
 /// Who calls for an effect, by position in the scene's lists.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,23 +28,33 @@ struct Reflectance {
     ambient: [bool; 3],
     diffuse: [bool; 3],
     specular: [bool; 3],
+    /// By hemisphere lights.
+    around: bool,
 }
 
 /// Names every effect that the scene calls for, with each of its callers. Linear in the triangles,
 /// lights and materials.
 pub(super) fn visit_calls(scene: &Scene, mut call: impl FnMut(Effects, Caller)) {
-    // Only materials that a triangle wears count.
+    // Only materials that a triangle wears and shows count.
+    let methods = Method::of_objects(scene);
     let mut in_use = vec![false; scene.materials.len()];
-    for &material in &scene.triangle_materials {
-        in_use[material as usize] = true;
+    for (object, _) in scene.objects.iter().zip(&methods).filter(|(_, method)| method.is_lit()) {
+        let range = object.triangles.start as usize..object.triangles.end as usize;
+        for &material in &scene.triangle_materials[range] {
+            in_use[material as usize] = true;
+        }
     }
     let worn = || scene.materials.iter().enumerate().filter(|(index, _)| in_use[*index]);
+    let rules = scene.switches.rules();
     let mut reflectance = Reflectance::default();
     for (index, material) in worn() {
         if !is_black(material.ke) {
             call(Effects::EMISSION, Caller::Material(index));
         }
-        merge(&mut reflectance.ambient, material.ka);
+        merge(
+            &mut reflectance.ambient,
+            if rules.ambient_by_diffuse { material.kd } else { material.ka },
+        );
         merge(&mut reflectance.diffuse, material.kd);
         merge(&mut reflectance.specular, material.ks);
     }
@@ -50,7 +62,9 @@ pub(super) fn visit_calls(scene: &Scene, mut call: impl FnMut(Effects, Caller)) 
     // Lights call for their kind and for what they modulate.
     let mut lit = Reflectance::default();
     for (index, light) in scene.lights.iter().enumerate() {
-        visit_light(light, &reflectance, &mut lit, |effect| call(effect, Caller::Light(index)));
+        visit_light(light, rules, &reflectance, &mut lit, |effect| {
+            call(effect, Caller::Light(index))
+        });
     }
 
     // Materials call for the terms in which they meet a light.
@@ -59,8 +73,9 @@ pub(super) fn visit_calls(scene: &Scene, mut call: impl FnMut(Effects, Caller)) 
     }
 
     // Normals matter where something depends on their direction.
-    if lit.diffuse.contains(&true) || lit.specular.contains(&true) {
-        for (index, object) in scene.objects.iter().enumerate() {
+    if lit.around || lit.diffuse.contains(&true) || lit.specular.contains(&true) {
+        let smooth = |index: &usize| methods[*index].uses_corner_normals();
+        for (index, object) in scene.objects.iter().enumerate().filter(|(index, _)| smooth(index)) {
             let range = object.triangles.start as usize..object.triangles.end as usize;
             let normals = scene.mesh.corner_normals.get(range).unwrap_or_default();
             if normals.iter().any(|corners| !corners.contains(&NO_ATTRIBUTE)) {
@@ -72,6 +87,7 @@ pub(super) fn visit_calls(scene: &Scene, mut call: impl FnMut(Effects, Caller)) 
 
 fn visit_light(
     light: &Light,
+    rules: &Rules,
     reflectance: &Reflectance,
     lit: &mut Reflectance,
     mut call: impl FnMut(Effects),
@@ -85,16 +101,29 @@ fn visit_light(
         Light::Directional(light) => (light.colors, Effects::DIRECTIONAL),
         Light::Point(light) => (light.colors, Effects::POINT),
         Light::Spot(light) => (light.colors, Effects::SPOT),
+        Light::Hemisphere(light) => {
+            if meets(light.top, reflectance.diffuse) || meets(light.bottom, reflectance.diffuse) {
+                call(Effects::HEMISPHERE);
+                lit.around = true;
+            }
+            return;
+        }
     };
-    if meets(colors.ambient, reflectance.ambient) {
+    let ambient = meets(colors.ambient, reflectance.ambient);
+    if ambient {
         call(Effects::AMBIENT);
     }
     let diffuse = meets(colors.diffuse, reflectance.diffuse);
     let specular = meets(colors.specular, reflectance.specular);
-    if !diffuse && !specular {
+    let positional = matches!(light, Light::Point(_) | Light::Spot(_));
+    let fades_ambient = rules.attenuate_ambient && positional && ambient;
+    if !diffuse && !specular && !fades_ambient {
         return;
     }
     call(kind);
+    if light.casts_shadows() && (diffuse || specular) {
+        call(Effects::SHADOWS);
+    }
     if diffuse {
         call(Effects::DIFFUSE);
         merge(&mut lit.diffuse, colors.diffuse);
@@ -106,7 +135,7 @@ fn visit_light(
     let attenuation = match light {
         Light::Point(light) => light.attenuation,
         Light::Spot(light) => light.attenuation,
-        Light::Ambient(_) | Light::Directional(_) => [1.0, 0.0, 0.0],
+        Light::Ambient(_) | Light::Directional(_) | Light::Hemisphere(_) => [1.0, 0.0, 0.0],
     };
     if attenuation != [1.0, 0.0, 0.0] {
         call(Effects::ATTENUATION);
@@ -166,12 +195,7 @@ pub fn explain(scene: &Scene) -> Vec<Call> {
 fn describe(scene: &Scene, caller: Caller) -> String {
     match caller {
         Caller::Light(index) => {
-            let kind = match scene.lights[index] {
-                Light::Ambient(_) => "ambient",
-                Light::Directional(_) => "directional",
-                Light::Point(_) => "point",
-                Light::Spot(_) => "spot",
-            };
+            let kind = scene.lights[index].kind();
             format!("light[{index}] ({kind})")
         }
         Caller::Material(index) => format!("material {:?}", scene.materials[index].name),

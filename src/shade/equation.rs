@@ -2,20 +2,28 @@
 //!
 //! `ke + Σ_j [ ka·Ia_j + f_j·B_j·( kd·Id_j·(N·L_j) + ks·Is_j·(N·H_j)_+^ns ) ]` with
 //! `f_j = (L_j·S_j)_+^e_j · cone_j / (a_j + r_j(b_j + c_j·r_j))`, per channel, f64, in the order of
-//! the file; B is 0 iff N·L ≤ 0. Source: Curless, "Shading", iteration four.
+//! the file; B is 0 iff N·L ≤ 0. Source: Curless, "Shading", iteration four. The switches of a scene
+//! put V·R in place of N·H, move the gate of the specular part, weight it by N·L, let f weaken the
+//! ambient part, or mix L from the corners. Hemisphere lights add kd·(a·top + (1 − a)·bottom).
 //!
 //! A term is gated before it is evaluated: what has no colour, no reach or the wrong side is never
-//! computed, so no 0·∞ exists. No clamping, no shadows, no visibility here.
+//! computed, so no 0·∞ exists. No clamping and no visibility here; whether a light is hidden is asked.
 
-use super::blinn_phong::{halfway, lobe, one_minus_cosine};
+use super::blinn_phong::{halfway, one_minus_cosine, shortened_lobe};
 use super::effects::Effects;
+use super::hemisphere::top_share;
 use super::kernel::Frame;
 use super::lights::{Origin, Position, PreparedLight, attenuation_denominator, is_black};
+use super::reflection::reflect;
+use super::surface::unless_cancelled;
 use super::terms::{LightTerm, Outcome, accumulate, accumulate_light};
 use super::vector;
 use super::watch::{Note, Watch};
+use super::weights::mix;
 use crate::color::LinearRgb;
+use crate::scene::light::HemisphereLight;
 use crate::scene::material::Material;
+use crate::scene::switches::{BacklitSpecular, Rules, SpecularModel};
 
 /// Below this |N·L| the side of the terminator is in doubt: N and L are each unit and right to a
 /// few 2^-52 when their inputs are, and two paths' weights differ by 2^-48 = 4e-15; 1e-13 leaves
@@ -59,34 +67,78 @@ impl KernelEffects {
     }
 }
 
-/// The part of a surface point that lights see; what the kernel has no use for is zero.
+/// A point as lights see it; what the kernel has no use for is zero.
 #[derive(Clone, Copy)]
 pub(super) struct Geometry {
     pub(super) position: [f64; 3],
+    /// V, unit.
     pub(super) to_eye: [f64; 3],
+    /// N̂, unit.
     pub(super) normal: [f64; 3],
+    /// |N|: 1, unless an interpolated normal is left as it is.
+    pub(super) normal_length: f64,
+    /// Where L is mixed from that of the corners.
+    pub(super) mixture: Option<Mixture>,
 }
+
+/// The corners from which L is interpolated.
+#[derive(Clone, Copy)]
+pub(super) struct Mixture {
+    pub(super) corners: [[f64; 3]; 3],
+    pub(super) weights: [f64; 3],
+}
+
+/// The coefficients at a point, after textures and switches.
+#[derive(Clone, Copy)]
+pub(super) struct Coefficients {
+    pub(super) emission: LinearRgb,
+    pub(super) ambient: LinearRgb,
+    pub(super) diffuse: LinearRgb,
+    pub(super) specular: LinearRgb,
+    pub(super) exponent: f64,
+}
+
+impl Coefficients {
+    pub(super) fn of(material: &Material, rules: &Rules) -> Self {
+        let ambient = if rules.ambient_by_diffuse { material.kd } else { material.ka };
+        Self {
+            emission: material.ke,
+            ambient,
+            diffuse: material.kd,
+            specular: material.ks,
+            exponent: material.ns,
+        }
+    }
+}
+
+/// Whether the light at a position of the scene's list is hidden from the surface point.
+pub(super) type IsHidden<'a> = &'a dyn Fn(usize) -> bool;
+
+/// Nothing hides a light.
+pub(super) const NEVER_HIDDEN: IsHidden<'static> = &|_| false;
 
 /// The equation at one point. Without `geometry` no light has a direction.
 pub(super) fn radiance_of<const E: u8, W: Watch>(
     frame: &Frame<'_>,
-    material: &Material,
+    coefficients: &Coefficients,
     geometry: Option<&Geometry>,
+    is_hidden: IsHidden<'_>,
     watch: &mut W,
 ) -> LinearRgb {
     let mut radiance = [0.0; 3];
     if frame.effects.has(Effects::EMISSION) {
         watch.evaluated(Effects::EMISSION);
-        accumulate(&mut radiance, material.ke);
+        accumulate(&mut radiance, coefficients.emission);
     }
     for light in &frame.lights {
         let mut term = LightTerm::DARK;
         if let Some(ambient) = light.ambient {
             watch.evaluated(Effects::AMBIENT);
-            term.ambient = product(material.ka, ambient);
+            term.ambient = product(coefficients.ambient, ambient);
         }
         if let Some(geometry) = geometry {
-            light_up::<E, W>(light, material, geometry, &mut term, watch);
+            let rules = frame.rules;
+            light_up::<E, W>(light, rules, coefficients, geometry, is_hidden, &mut term, watch);
         }
         accumulate_light(&mut radiance, &term);
         watch.light(light.index, &term);
@@ -97,25 +149,33 @@ pub(super) fn radiance_of<const E: u8, W: Watch>(
 /// Evaluates the directed part of one light into `term`.
 fn light_up<const E: u8, W: Watch>(
     light: &PreparedLight,
-    material: &Material,
+    rules: &Rules,
+    coefficients: &Coefficients,
     geometry: &Geometry,
+    is_hidden: IsHidden<'_>,
     term: &mut LightTerm,
     watch: &mut W,
 ) {
     let effects = const { KernelEffects(E) };
+    if let Origin::Hemisphere(hemisphere) = &light.origin {
+        return light_up_from_all_around(hemisphere, rules, coefficients, geometry, term, watch);
+    }
+
     // Gate by colour: a light that meets no coefficient is not evaluated.
-    let diffuse = product(material.kd, light.diffuse);
+    let diffuse = product(coefficients.diffuse, light.diffuse);
     let specular = if effects.has(KernelEffects::SPECULAR) {
-        product(material.ks, light.specular)
+        product(coefficients.specular, light.specular)
     } else {
         [0.0; 3]
     };
-    if is_black(diffuse) && is_black(specular) {
+    let is_directed = !is_black(diffuse) || !is_black(specular);
+    let fades_ambient = light.fades_ambient && !is_black(term.ambient);
+    if !is_directed && !fades_ambient {
         return;
     }
 
-    // Find the way to the light, and gate by the sign of N·L before anything is divided.
-    let (to_light, n_dot_l, reach) = match &light.origin {
+    // Find the way to the light, and N·L before anything is divided.
+    let (mut to_light, mut n_dot_l, reach) = match &light.origin {
         Origin::Direction { to_light } => {
             watch.evaluated(Effects::DIRECTIONAL);
             (*to_light, vector::dot(geometry.normal, *to_light), None)
@@ -131,56 +191,168 @@ fn light_up<const E: u8, W: Watch>(
             let n_dot_l = vector::dot(geometry.normal, way.scaled) / way.scaled_length;
             (way.unit(), n_dot_l, Some((at, way.length)))
         }
-        Origin::Position(_) | Origin::Nowhere => return,
+        Origin::Position(_) | Origin::Hemisphere(_) | Origin::Nowhere => return,
     };
+
+    // Reach of the light, where its ambient part asks for it: cone, falloff, attenuation.
+    let true_to_light = to_light;
+    let mut known_factor = None;
+    if fades_ambient {
+        let factor = factor_of::<E, W>(reach, true_to_light, watch);
+        term.ambient = match factor {
+            Some(share) if share > 0.0 => term.ambient.map(|value| value * share),
+            _ => [0.0; 3],
+        };
+        known_factor = Some(factor);
+        if !is_directed {
+            return;
+        }
+    }
+
+    // Gate by the sign of N·L.
+    if let (Some(mixture), Some((at, _))) = (&geometry.mixture, reach) {
+        let Some(mixed) = mixture.direction_to(at.position) else {
+            term.outcome = Outcome::NoDirection;
+            watch.note(Note::CancelledVectors);
+            return;
+        };
+        to_light = mixed;
+        n_dot_l = vector::dot(geometry.normal, mixed);
+    }
+    n_dot_l *= geometry.normal_length;
     term.n_dot_l = Some(n_dot_l);
     if n_dot_l.abs() < TERMINATOR {
         watch.note(Note::NearTerminator);
     }
-    if n_dot_l <= 0.0 {
+    let shines = effects.has(KernelEffects::SPECULAR)
+        && !is_black(specular)
+        && match rules.backlit_specular {
+            BacklitSpecular::DarkUpTo => n_dot_l > 0.0,
+            BacklitSpecular::DarkBelow => n_dot_l >= 0.0,
+            BacklitSpecular::NeverDark => true,
+        };
+    if n_dot_l <= 0.0 && !shines {
         term.outcome = Outcome::FacesAway;
         return;
     }
 
-    // Reach of the light: cone, falloff, attenuation.
-    let factor = match reach {
-        Some((at, distance)) => match reach_factor::<E, W>(at, to_light, distance, watch) {
-            Some(factor) => factor,
-            None => {
-                term.outcome = Outcome::OutsideCone;
-                return;
-            }
-        },
-        None => 1.0,
+    // Reach of the light.
+    let factor = match known_factor {
+        Some(factor) => factor,
+        None => factor_of::<E, W>(reach, true_to_light, watch),
+    };
+    let Some(factor) = factor else {
+        term.outcome = Outcome::OutsideCone;
+        return;
     };
     term.factor = Some(factor);
     if factor == 0.0 {
         term.outcome = Outcome::Faded;
         return;
     }
+
+    // Ask for a shadow last: it costs most.
+    if light.shadows {
+        watch.evaluated(Effects::SHADOWS);
+        if is_hidden(light.index) {
+            term.outcome = Outcome::Shadowed;
+            return;
+        }
+    }
     term.outcome = Outcome::Lit;
 
     // Reflect: every number is positive from here on, or a colour channel's 0 times a finite one.
-    if !is_black(diffuse) {
+    if !is_black(diffuse) && n_dot_l > 0.0 {
         watch.evaluated(Effects::DIFFUSE);
         term.diffuse = diffuse.map(|color| factor * color * n_dot_l);
     }
-    if effects.has(KernelEffects::SPECULAR) && !is_black(specular) {
+    if shines {
         watch.evaluated(Effects::SPECULAR);
-        let Some(half) = halfway(to_light, geometry.to_eye) else {
+        let Some((cosine, power)) = specular_lobe(rules, geometry, to_light, coefficients.exponent)
+        else {
             watch.note(Note::OppositeView);
             return;
         };
-        let q = one_minus_cosine(geometry.normal, half);
-        term.n_dot_h = Some(1.0 - q);
-        let power = lobe(q, material.ns);
-        if power > 0.0 {
-            term.specular = specular.map(|color| factor * color * power);
+        term.n_dot_h = Some(cosine);
+        let weight = if rules.specular_cosine { n_dot_l.max(0.0) } else { 1.0 };
+        if power > 0.0 && weight > 0.0 {
+            term.specular = specular.map(|color| factor * color * power * weight);
         }
     }
 }
 
-/// f of a light at a position, 0…f64::MAX; `None` outside its cone.
+/// kd·(a·top + (1 − a)·bottom): no gate, no distance.
+fn light_up_from_all_around<W: Watch>(
+    light: &HemisphereLight,
+    rules: &Rules,
+    coefficients: &Coefficients,
+    geometry: &Geometry,
+    term: &mut LightTerm,
+    watch: &mut W,
+) {
+    if is_black(coefficients.diffuse) {
+        return;
+    }
+    watch.evaluated(Effects::HEMISPHERE);
+    term.outcome = Outcome::Lit;
+    let normal = vector::scaled(geometry.normal, geometry.normal_length);
+    let a = top_share(rules.hemisphere, normal, light.up);
+    term.diffuse = std::array::from_fn(|k| match coefficients.diffuse[k] {
+        0.0 => 0.0,
+        kd => kd * (a * light.top[k] + (1.0 - a) * light.bottom[k]),
+    });
+}
+
+/// The cosine of the specular lobe and its power; `None` where L = −V leaves no halfway vector.
+fn specular_lobe(
+    rules: &Rules,
+    geometry: &Geometry,
+    to_light: [f64; 3],
+    exponent: f64,
+) -> Option<(f64, f64)> {
+    let (q, length) = match rules.specular {
+        SpecularModel::Blinn => {
+            let half = halfway(to_light, geometry.to_eye)?;
+            (one_minus_cosine(geometry.normal, half), geometry.normal_length)
+        }
+        SpecularModel::Phong if geometry.normal_length == 1.0 => {
+            (one_minus_cosine(geometry.to_eye, reflect(to_light, geometry.normal)), 1.0)
+        }
+        // A shorter normal makes a shorter R, of at most unit length; at length 0, V·R is 0.
+        SpecularModel::Phong => {
+            let normal = vector::scaled(geometry.normal, geometry.normal_length);
+            match vector::measure(reflect(to_light, normal)) {
+                Some(mirror) => (one_minus_cosine(geometry.to_eye, mirror.unit()), mirror.length),
+                None => (1.0, 0.0),
+            }
+        }
+    };
+    Some(((1.0 - q) * length, shortened_lobe(q, length, exponent)))
+}
+
+impl Mixture {
+    /// The mean of the corners' unit directions to a point, made unit; `None` where it cancels. A
+    /// corner at the point itself has none.
+    pub(super) fn direction_to(&self, point: [f64; 3]) -> Option<[f64; 3]> {
+        let directions =
+            self.corners.map(|corner| vector::unit(vector::sub(point, corner)).unwrap_or_default());
+        unless_cancelled(mix(self.weights, directions))
+    }
+}
+
+/// f of a light, 0…f64::MAX; 1 at infinity, `None` outside its cone.
+fn factor_of<const E: u8, W: Watch>(
+    reach: Option<(&Position, f64)>,
+    to_light: [f64; 3],
+    watch: &mut W,
+) -> Option<f64> {
+    match reach {
+        Some((at, distance)) => reach_factor::<E, W>(at, to_light, distance, watch),
+        None => Some(1.0),
+    }
+}
+
+/// f of a light at a position.
 fn reach_factor<const E: u8, W: Watch>(
     at: &Position,
     to_light: [f64; 3],

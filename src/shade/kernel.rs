@@ -3,30 +3,62 @@
 //!
 //! The body of the equation is in `equation`; only the loop and the set-up of surfaces are here.
 
+use super::corners::{self, Memo};
 use super::effects::Effects;
-use super::equation::{Geometry, KernelEffects, radiance_of};
+use super::equation::{
+    Coefficients, Geometry, IsHidden, KernelEffects, Mixture, NEVER_HIDDEN, radiance_of,
+};
 use super::lights::{self, Origin, PreparedLight, is_black};
+use super::method::Method;
 use super::surface;
 use super::watch::{Note, Watch};
+use super::weights::{mix_colors, weights};
 use crate::color::LinearRgb;
 use crate::pixel::{Pixel, Window};
 use crate::scene::Scene;
+use crate::scene::switches::Rules;
 use crate::visibility::Visible;
+
+/// Whether an opaque surface hides the light at a position of the scene's list from the point of a
+/// triangle that is visible at a pixel.
+pub type Occlusion<'a> = &'a (dyn Fn(Pixel, &Visible, usize) -> bool + Sync);
 
 /// What is the same at every pixel.
 pub(super) struct Frame<'a> {
     pub(super) scene: &'a Scene,
+    pub(super) rules: &'a Rules,
     pub(super) effects: Effects,
     pub(super) lights: Vec<PreparedLight>,
+    pub(super) methods: Vec<Method>,
     /// Whether any light has a direction: without one no surface is set up.
     directed: bool,
+    /// Whether any light casts shadows.
+    pub(super) shadowed: bool,
+    occlusion: Option<Occlusion<'a>>,
 }
 
 impl<'a> Frame<'a> {
-    pub(super) fn new(scene: &'a Scene, effects: Effects) -> Self {
-        let lights = lights::prepare(&scene.lights, effects);
+    pub(super) fn new(
+        scene: &'a Scene,
+        effects: Effects,
+        occlusion: Option<Occlusion<'a>>,
+    ) -> Self {
+        let rules = scene.switches.rules();
+        // Without anybody to ask, nothing casts a shadow.
+        let effects = match occlusion {
+            Some(_) => effects,
+            None => effects.without(Effects::SHADOWS),
+        };
+        let lights = lights::prepare(&scene.lights, rules, effects);
         let directed = lights.iter().any(|light| !matches!(light.origin, Origin::Nowhere));
-        Self { scene, effects, lights, directed }
+        let shadowed = lights.iter().any(|light| light.shadows);
+        let methods = Method::of_objects(scene);
+        Self { scene, rules, effects, lights, methods, directed, shadowed, occlusion }
+    }
+
+    /// Whether a light is hidden from the surface at a pixel.
+    pub(super) fn is_hidden(&self, pixel: Pixel, visible: &Visible, light: usize) -> bool {
+        self.occlusion.is_some_and(|occlusion| occlusion(pixel, visible, light))
     }
 }
 
@@ -65,9 +97,10 @@ fn shade_row<const E: u8, W: Watch>(
     radiance: &mut [LinearRgb],
     watch: &mut W,
 ) {
+    let mut memo = Memo::default();
     for ((x, visible), out) in (window.x0()..).zip(visible).zip(radiance) {
         *out = match visible {
-            Some(visible) => shade_pixel::<E, W>(frame, Pixel { x, y }, visible, watch),
+            Some(visible) => shade_pixel::<E, W>(frame, Pixel { x, y }, visible, &mut memo, watch),
             None => frame.scene.background,
         };
         if !out.iter().all(|value| value.is_finite()) {
@@ -80,29 +113,101 @@ fn shade_pixel<const E: u8, W: Watch>(
     frame: &Frame<'_>,
     pixel: Pixel,
     visible: &Visible,
+    memo: &mut Memo,
     watch: &mut W,
 ) -> LinearRgb {
+    let scene = frame.scene;
+    let (object, _) = scene.object_of(visible.triangle);
+    let (_, material) = scene.material_of(visible.triangle);
+    let coefficients = Coefficients::of(material, frame.rules);
+    let hidden = |light| frame.is_hidden(pixel, visible, light);
+    let is_hidden: IsHidden<'_> = if frame.shadowed { &hidden } else { NEVER_HIDDEN };
+    match frame.methods[object] {
+        method @ (Method::SmoothPixel | Method::FlatPixel) => {
+            let geometry = geometry_at_pixel::<E, W>(
+                frame,
+                pixel,
+                visible,
+                method == Method::SmoothPixel,
+                &coefficients,
+                watch,
+            );
+            radiance_of::<E, W>(frame, &coefficients, geometry.as_ref(), is_hidden, watch)
+        }
+        method @ (Method::SmoothCorners | Method::FlatCorners) => {
+            let is_smooth = method == Method::SmoothCorners;
+            let all = [0, 1, 2];
+            let colors = memo.colors(visible, frame.shadowed, || {
+                all.map(|corner| {
+                    let point = corners::at_corner(frame, visible, corner, is_smooth, watch);
+                    corners::lit::<E, W>(frame, &coefficients, &point, is_hidden, watch)
+                })
+            });
+            mix_colors(weights(scene, visible, watch), colors)
+        }
+        method @ (Method::Centroid | Method::LastCorner) => {
+            memo.colors(visible, frame.shadowed, || {
+                let point = match method {
+                    Method::Centroid => corners::at_centroid(frame, visible, watch),
+                    _ => corners::at_corner(frame, visible, 2, true, watch),
+                };
+                [corners::lit::<E, W>(frame, &coefficients, &point, is_hidden, watch); 3]
+            })[0]
+        }
+        Method::VertexColors => material.kd,
+    }
+}
+
+/// The point that is visible at a pixel as lights see it; `None` where none has a direction.
+pub(super) fn geometry_at_pixel<const E: u8, W: Watch>(
+    frame: &Frame<'_>,
+    pixel: Pixel,
+    visible: &Visible,
+    is_smooth: bool,
+    coefficients: &Coefficients,
+    watch: &mut W,
+) -> Option<Geometry> {
     let effects = const { KernelEffects(E) };
-    let (_, material) = frame.scene.material_of(visible.triangle);
-    // Set up the surface only where a light can see it.
-    let reflects =
-        !is_black(material.kd) || effects.has(KernelEffects::SPECULAR) && !is_black(material.ks);
-    let geometry = (frame.directed && reflects).then(|| Geometry {
-        position: if effects.has(KernelEffects::POSITIONAL) {
-            surface::position(frame.scene, pixel, visible)
-        } else {
-            [0.0; 3]
-        },
-        to_eye: if effects.has(KernelEffects::SPECULAR) {
-            surface::to_eye(frame.scene, pixel)
-        } else {
-            [0.0; 3]
-        },
-        normal: if effects.has(KernelEffects::NORMALS) {
-            surface::shading_normal::<true, W>(frame.scene, visible, watch)
-        } else {
-            surface::shading_normal::<false, W>(frame.scene, visible, watch)
-        },
+    let (scene, rules) = (frame.scene, frame.rules);
+    if !frame.sees(coefficients, effects) {
+        return None;
+    }
+    let is_smooth = is_smooth && effects.has(KernelEffects::NORMALS);
+    let weights = if is_smooth || rules.interpolate_vectors {
+        weights(scene, visible, watch)
+    } else {
+        [0.0; 3]
+    };
+    let normal = surface::shading_normal(scene, visible, weights, is_smooth, watch);
+    let mixture = rules.interpolate_vectors.then(|| Mixture {
+        corners: scene.mesh.triangle(visible.triangle).map(|corner| corner.map(f64::from)),
+        weights,
     });
-    radiance_of::<E, W>(frame, material, geometry.as_ref(), watch)
+    Some(Geometry {
+        position: if effects.has(KernelEffects::POSITIONAL) {
+            surface::position(scene, pixel, visible)
+        } else {
+            [0.0; 3]
+        },
+        to_eye: match &mixture {
+            _ if !effects.has(KernelEffects::SPECULAR) => [0.0; 3],
+            Some(mixture) if !rules.distant_viewer => {
+                mixture.direction_to(scene.camera.eye()).unwrap_or_default()
+            }
+            _ => surface::to_eye(scene, pixel),
+        },
+        normal: normal.unit,
+        normal_length: normal.length,
+        mixture,
+    })
+}
+
+impl Frame<'_> {
+    /// Whether some light's direction matters to a surface with these coefficients.
+    pub(super) fn sees(&self, coefficients: &Coefficients, effects: KernelEffects) -> bool {
+        let reflects = !is_black(coefficients.diffuse)
+            || effects.has(KernelEffects::SPECULAR) && !is_black(coefficients.specular)
+            || self.rules.attenuate_ambient && !is_black(coefficients.ambient);
+        self.directed && reflects
+    }
 }

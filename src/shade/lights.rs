@@ -6,7 +6,8 @@
 use super::blinn_phong;
 use super::effects::Effects;
 use crate::color::LinearRgb;
-use crate::scene::light::{Light, LightColors};
+use crate::scene::light::{HemisphereLight, Light, LightColors};
+use crate::scene::switches::Rules;
 
 /// Slack of the cone's rim, as a chord between unit vectors (|L − S|): 8·2^-53. L and S are each
 /// off by up to 3·2^-53, the sine and its argument by 2·2^-53, so that a point exactly on the rim
@@ -20,6 +21,10 @@ pub(super) struct PreparedLight {
     pub(super) index: usize,
     /// I_a, when there is any.
     pub(super) ambient: Option<LinearRgb>,
+    /// Whether f weakens I_a too.
+    pub(super) fades_ambient: bool,
+    /// Whether shadow rays are asked about its directed part.
+    pub(super) shadows: bool,
     /// I_d.
     pub(super) diffuse: LinearRgb,
     /// I_s.
@@ -40,6 +45,8 @@ pub(super) enum Origin {
     },
     /// A point.
     Position(Position),
+    /// All around.
+    Hemisphere(HemisphereLight),
 }
 
 /// A light at a point.
@@ -67,17 +74,23 @@ pub(super) struct Cone {
 }
 
 /// The scene's lights in file order, without those that `effects` leave black.
-pub(super) fn prepare(lights: &[Light], effects: Effects) -> Vec<PreparedLight> {
+pub(super) fn prepare(lights: &[Light], rules: &Rules, effects: Effects) -> Vec<PreparedLight> {
     lights
         .iter()
         .enumerate()
-        .map(|(index, light)| prepare_light(index, light, effects))
+        .map(|(index, light)| prepare_light(index, light, rules, effects))
         .filter(|light| light.ambient.is_some() || !matches!(light.origin, Origin::Nowhere))
         .collect()
 }
 
-fn prepare_light(index: usize, light: &Light, effects: Effects) -> PreparedLight {
+fn prepare_light(index: usize, light: &Light, rules: &Rules, effects: Effects) -> PreparedLight {
     let (colors, kind) = match light {
+        Light::Hemisphere(hemisphere) => {
+            let on = effects.has(Effects::HEMISPHERE)
+                && !(is_black(hemisphere.top) && is_black(hemisphere.bottom));
+            let origin = if on { Origin::Hemisphere(*hemisphere) } else { Origin::Nowhere };
+            return PreparedLight { origin, ..PreparedLight::black(index) };
+        }
         Light::Ambient(light) => {
             let colors =
                 LightColors { ambient: light.ambient, diffuse: [0.0; 3], specular: [0.0; 3] };
@@ -91,20 +104,37 @@ fn prepare_light(index: usize, light: &Light, effects: Effects) -> PreparedLight
     let directed = effects.has(kind);
     let diffuse = when(directed && effects.has(Effects::DIFFUSE), colors.diffuse);
     let specular = when(directed && effects.has(Effects::SPECULAR), colors.specular);
-    let origin = if is_black(diffuse) && is_black(specular) {
+    let ambient =
+        (effects.has(Effects::AMBIENT) && !is_black(colors.ambient)).then_some(colors.ambient);
+    let positional = matches!(light, Light::Point(_) | Light::Spot(_));
+    let fades_ambient = rules.attenuate_ambient && positional && directed && ambient.is_some();
+    let origin = if is_black(diffuse) && is_black(specular) && !fades_ambient {
         Origin::Nowhere
     } else {
         origin_of(light, effects)
     };
-    let ambient =
-        (effects.has(Effects::AMBIENT) && !is_black(colors.ambient)).then_some(colors.ambient);
-    PreparedLight { index, ambient, diffuse, specular, origin }
+    let shadows = light.casts_shadows() && effects.has(Effects::SHADOWS);
+    PreparedLight { index, ambient, fades_ambient, shadows, diffuse, specular, origin }
+}
+
+impl PreparedLight {
+    fn black(index: usize) -> Self {
+        Self {
+            index,
+            ambient: None,
+            fades_ambient: false,
+            shadows: false,
+            diffuse: [0.0; 3],
+            specular: [0.0; 3],
+            origin: Origin::Nowhere,
+        }
+    }
 }
 
 fn origin_of(light: &Light, effects: Effects) -> Origin {
     let attenuation = |abc: [f64; 3]| effects.has(Effects::ATTENUATION).then_some(abc);
     match light {
-        Light::Ambient(_) => Origin::Nowhere,
+        Light::Ambient(_) | Light::Hemisphere(_) => Origin::Nowhere,
         Light::Directional(light) => Origin::Direction { to_light: light.aim.map(|c| -c) },
         Light::Point(light) => Origin::Position(Position {
             kind: Effects::POINT,

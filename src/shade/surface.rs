@@ -3,11 +3,13 @@
 //! Visibility is over here: the triangle, its facing and its weights are taken as found. The eye
 //! direction comes from the camera's exact ray, never from a difference of points.
 
+use super::method::Method;
 use super::vector;
 use super::watch::{Note, Notes, Watch};
-use crate::mesh::Barycentric;
+use super::weights::{mix, weights};
+use crate::mesh::{Barycentric, TriangleId};
 use crate::pixel::Pixel;
-use crate::scene::{Scene, Shading, Sides};
+use crate::scene::{Scene, Sides};
 use crate::visibility::{Facing, Visible};
 
 /// Below this |Σ b·n|², for unit corner normals n, the interpolated normal has cancelled: its
@@ -33,23 +35,32 @@ pub struct SurfacePoint {
 }
 
 /// The surface point that is visible at a pixel, and what happened on the way
-/// ([`Notes::cancelled_normals`], [`Notes::missing_normals`]).
+/// ([`Notes::cancelled_normals`], [`Notes::missing_normals`], [`Notes::perspective_kept`]).
 pub fn surface_point(scene: &Scene, pixel: Pixel, visible: &Visible) -> (SurfacePoint, Notes) {
     let mut notes = Notes::default();
-    let weights = visible.barycentric.0;
+    let (_, object) = scene.object_of(visible.triangle);
+    let rules = scene.switches.rules();
+    let weights = weights(scene, visible, &mut notes);
+    let method = Method::of(object.shading, rules);
+    let is_smooth = method.uses_corner_normals() && method != Method::LastCorner;
+    let normal = shading_normal(scene, visible, weights, is_smooth, &mut notes);
     let point = SurfacePoint {
         position: position(scene, pixel, visible),
         to_eye: to_eye(scene, pixel),
         face_normal: scene.mesh.face_normal(visible.triangle),
-        shading_normal: shading_normal::<true, _>(scene, visible, &mut notes),
-        uv: scene.mesh.uvs_of(visible.triangle).map(|uvs| {
-            std::array::from_fn(|k| {
-                weights[0] * uvs[0][k] + weights[1] * uvs[1][k] + weights[2] * uvs[2][k]
-            })
-        }),
+        shading_normal: normal.unit,
+        uv: scene.mesh.uvs_of(visible.triangle).map(|uvs| mix(weights, uvs)),
         barycentric: visible.barycentric,
     };
     (point, notes)
+}
+
+/// A normal as the equation takes it.
+#[derive(Clone, Copy)]
+pub(super) struct Normal {
+    pub(super) unit: [f64; 3],
+    /// 1, or what interpolation left where the scene does not make it unit again.
+    pub(super) length: f64,
 }
 
 /// The direction of a pixel's ray, exact in f64 by the camera's lattice, not unit.
@@ -59,11 +70,23 @@ fn ray_direction(scene: &Scene, pixel: Pixel) -> [f64; 3] {
     std::array::from_fn(|k| d0[k] + x * dx[k] + y * dy[k])
 }
 
-/// V: the unit vector against the pixel's ray.
+/// V at a pixel: the unit vector against its ray, or against the view axis for a distant viewer.
 pub(super) fn to_eye(scene: &Scene, pixel: Pixel) -> [f64; 3] {
+    if scene.switches.rules().distant_viewer {
+        return scene.camera.axis().map(|c| -c);
+    }
     // A lattice camera has no zero direction (its three vectors span space), so the fallback
     // stands for nothing.
     vector::unit(ray_direction(scene, pixel)).map_or([0.0; 3], |d| d.map(|c| -c))
+}
+
+/// V at a point of a surface.
+pub(super) fn to_eye_from(scene: &Scene, point: [f64; 3]) -> [f64; 3] {
+    if scene.switches.rules().distant_viewer {
+        return scene.camera.axis().map(|c| -c);
+    }
+    // A triangle with a corner at the eye is never visible.
+    vector::unit(vector::sub(scene.camera.eye(), point)).unwrap_or_default()
 }
 
 /// The world position: the better of two points that are equal in exact arithmetic.
@@ -91,45 +114,72 @@ pub(super) fn position(scene: &Scene, pixel: Pixel, visible: &Visible) -> [f64; 
     }
 }
 
-/// N: the interpolated corner normal made unit where `INTERPOLATE` is on and the triangle has
-/// corner normals, else the face normal; turned on double-sided meshes whose face points away from
-/// the eye (by the exact facing, so it cannot disagree with visibility).
-pub(super) fn shading_normal<const INTERPOLATE: bool, W: Watch>(
+/// N: the interpolated corner normal where `is_smooth` and the triangle has corner normals, else
+/// the face normal; turned on double-sided meshes whose face points away from the eye (by the exact
+/// facing, so it cannot disagree with visibility).
+pub(super) fn shading_normal<W: Watch>(
     scene: &Scene,
     visible: &Visible,
+    weights: [f64; 3],
+    is_smooth: bool,
+    watch: &mut W,
+) -> Normal {
+    let corners = if is_smooth { scene.mesh.normals_of(visible.triangle) } else { None };
+    let interpolated = corners.and_then(|normals| {
+        watch.evaluated(super::effects::Effects::INTERPOLATED_NORMALS);
+        let sum = mix(weights, normals);
+        let unit = unless_cancelled(sum);
+        if unit.is_none() {
+            watch.note(Note::CancelledNormal);
+        }
+        let is_unit = scene.switches.rules().renormalize;
+        let length = if is_unit { 1.0 } else { vector::squared_length(sum).sqrt().min(1.0) };
+        unit.map(|unit| Normal { unit, length })
+    });
+    let normal = interpolated.unwrap_or_else(|| face_normal(scene, visible.triangle, watch));
+    Normal { unit: turned(scene, visible, normal.unit), ..normal }
+}
+
+/// The normal with which a corner is lit: its own where `is_smooth` and it has one, else the
+/// face's; turned like that of a pixel.
+pub(super) fn corner_normal<W: Watch>(
+    scene: &Scene,
+    visible: &Visible,
+    corner: usize,
+    is_smooth: bool,
     watch: &mut W,
 ) -> [f64; 3] {
-    let (_, object) = scene.object_of(visible.triangle);
-    let corner_normals = match object.shading {
-        Shading::Phong if INTERPOLATE => scene.mesh.normals_of(visible.triangle),
-        Shading::Phong => None,
-    };
-    let interpolated =
-        corner_normals.and_then(|normals| interpolate(normals, visible.barycentric, watch));
-    let normal = interpolated.unwrap_or_else(|| {
-        let face = scene.mesh.face_normal(visible.triangle);
-        if face == [0.0; 3] {
-            watch.note(Note::MissingNormal);
+    let corners = if is_smooth { scene.mesh.normals_of(visible.triangle) } else { None };
+    let normal = match corners {
+        Some(normals) => {
+            watch.evaluated(super::effects::Effects::INTERPOLATED_NORMALS);
+            normals[corner]
         }
-        face
-    });
+        None => face_normal(scene, visible.triangle, watch).unit,
+    };
+    turned(scene, visible, normal)
+}
+
+fn face_normal<W: Watch>(scene: &Scene, triangle: TriangleId, watch: &mut W) -> Normal {
+    let unit = scene.mesh.face_normal(triangle);
+    if unit == [0.0; 3] {
+        watch.note(Note::MissingNormal);
+    }
+    Normal { unit, length: 1.0 }
+}
+
+fn turned(scene: &Scene, visible: &Visible, normal: [f64; 3]) -> [f64; 3] {
+    let (_, object) = scene.object_of(visible.triangle);
     match (object.sides, visible.facing) {
         (Sides::Double, Facing::Back) => normal.map(|c| -c),
         _ => normal,
     }
 }
 
-fn interpolate<W: Watch>(
-    normals: [[f64; 3]; 3],
-    Barycentric(b): Barycentric,
-    watch: &mut W,
-) -> Option<[f64; 3]> {
-    watch.evaluated(super::effects::Effects::INTERPOLATED_NORMALS);
-    let [n0, n1, n2] = normals;
-    let sum = std::array::from_fn(|k| b[0] * n0[k] + b[1] * n1[k] + b[2] * n2[k]);
-    if vector::squared_length(sum) < CANCELLED_SQUARED {
-        watch.note(Note::CancelledNormal);
+/// The unit vector along a mean of unit vectors; `None` where they cancelled.
+pub(super) fn unless_cancelled(mean: [f64; 3]) -> Option<[f64; 3]> {
+    if vector::squared_length(mean) < CANCELLED_SQUARED {
         return None;
     }
-    vector::unit(sum)
+    vector::unit(mean)
 }

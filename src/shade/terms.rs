@@ -17,7 +17,11 @@ pub enum Outcome {
     OutsideCone,
     /// The factor f is 0 in f64 (falloff or attenuation).
     Faded,
-    /// B = 1 and f > 0.
+    /// An opaque surface lies between the surface point and the light.
+    Shadowed,
+    /// Directions interpolated from the corners cancelled.
+    NoDirection,
+    /// It reaches the surface.
     Lit,
 }
 
@@ -30,6 +34,8 @@ impl Outcome {
             Self::FacesAway => "behind the surface",
             Self::OutsideCone => "outside the cone",
             Self::Faded => "faded to nothing",
+            Self::Shadowed => "in shadow",
+            Self::NoDirection => "without direction",
             Self::Lit => "lit",
         }
     }
@@ -40,11 +46,11 @@ impl Outcome {
 pub struct LightTerm {
     /// How far the evaluation went.
     pub outcome: Outcome,
-    /// ka·Ia.
+    /// ka·Ia, times f where the switch `attenuate_ambient` says so.
     pub ambient: LinearRgb,
-    /// f·B·kd·Id·(N·L).
+    /// f·B·kd·Id·(N·L); of a hemisphere light kd·(a·top + (1 − a)·bottom).
     pub diffuse: LinearRgb,
-    /// f·B·ks·Is·(N·H)_+^ns.
+    /// f·B·ks·Is·(N·H)_+^ns, or with (V·R)_+, as the switches say.
     pub specular: LinearRgb,
     /// r, world units; for lights at a position.
     pub distance: Option<f64>,
@@ -52,7 +58,7 @@ pub struct LightTerm {
     pub n_dot_l: Option<f64>,
     /// f: falloff, cone and attenuation together.
     pub factor: Option<f64>,
-    /// N·H.
+    /// N·H, or V·R with Phong's lobe.
     pub n_dot_h: Option<f64>,
 }
 
@@ -80,21 +86,37 @@ impl LightTerm {
 pub struct Terms {
     /// Where it was evaluated.
     pub surface: SurfacePoint,
-    /// ke.
+    /// ke; of a surface that is not lit, its colour.
     pub emission: LinearRgb,
-    /// One term per light of the scene, in file order.
+    /// One term per light of the scene, in file order. Where the equation is evaluated elsewhere
+    /// than at the pixel, those of the last such point, for their outcomes.
     pub lights: Vec<LightTerm>,
+    /// Where colours are those of other points: each point's weight and its lights' terms.
+    pub elsewhere: Vec<(f64, Vec<LightTerm>)>,
 }
 
 impl Terms {
     /// The radiance, summed as the shading kernel sums it: bit for bit the pixel's value.
     pub fn sum(&self) -> LinearRgb {
-        let mut radiance = [0.0; 3];
-        accumulate(&mut radiance, self.emission);
-        for light in &self.lights {
-            accumulate_light(&mut radiance, light);
+        let sum = |lights: &[LightTerm]| {
+            let mut radiance = [0.0; 3];
+            accumulate(&mut radiance, self.emission);
+            for light in lights {
+                accumulate_light(&mut radiance, light);
+            }
+            radiance
+        };
+        match self.elsewhere.as_slice() {
+            [] => sum(&self.lights),
+            [(_, lights)] => sum(lights),
+            points => {
+                let mut radiance = [0.0; 3];
+                for (weight, lights) in points.iter().filter(|(weight, _)| *weight > 0.0) {
+                    accumulate(&mut radiance, sum(lights).map(|value| weight * value));
+                }
+                radiance
+            }
         }
-        radiance
     }
 }
 

@@ -18,6 +18,10 @@ pub(super) enum Note {
     CancelledNormal,
     /// See [`Notes::missing_normals`].
     MissingNormal,
+    /// See [`Notes::cancelled_vectors`].
+    CancelledVectors,
+    /// See [`Notes::perspective_kept`].
+    PerspectiveKept,
     /// See [`Notes::non_finite`].
     NonFinite,
 }
@@ -50,6 +54,12 @@ pub struct Notes {
     pub cancelled_normals: u64,
     /// Pixels on faces too thin to have a normal in f64; they get no directed light.
     pub missing_normals: u64,
+    /// Pairs of pixel and light where directions interpolated from the corners cancelled (or none
+    /// of them exists) and left no direction; the light gave its ambient part only.
+    pub cancelled_vectors: u64,
+    /// Pixels on triangles with a corner at or behind the eye plane, whose weights stayed
+    /// perspective-correct though the scene asks for weights linear on the screen.
+    pub perspective_kept: u64,
     /// Pixels whose radiance left the range of f64. Never NaN, but infinite: a defect of the
     /// scene's numbers.
     pub non_finite: u64,
@@ -63,6 +73,8 @@ impl Notes {
         self.opposite_view += other.opposite_view;
         self.cancelled_normals += other.cancelled_normals;
         self.missing_normals += other.missing_normals;
+        self.cancelled_vectors += other.cancelled_vectors;
+        self.perspective_kept += other.perspective_kept;
         self.non_finite += other.non_finite;
     }
 }
@@ -76,6 +88,8 @@ impl Watch for Notes {
             Note::OppositeView => &mut self.opposite_view,
             Note::CancelledNormal => &mut self.cancelled_normals,
             Note::MissingNormal => &mut self.missing_normals,
+            Note::CancelledVectors => &mut self.cancelled_vectors,
+            Note::PerspectiveKept => &mut self.perspective_kept,
             Note::NonFinite => &mut self.non_finite,
         } += 1;
     }

@@ -122,6 +122,10 @@ fn a03_channels_never_meet() {
                 turn(&mut light.ambient);
                 continue;
             }
+            Light::Hemisphere(light) => {
+                [&mut light.top, &mut light.bottom].into_iter().for_each(turn);
+                continue;
+            }
             Light::Directional(light) => &mut light.colors,
             Light::Point(light) => &mut light.colors,
             Light::Spot(light) => &mut light.colors,

@@ -172,11 +172,13 @@ fn every_light() {
         Light::Directional(DirectionalLight {
             aim: [0.0, -1.0, 0.0],
             colors: colors([0.0, 0.0, 1.0], [1.0, 0.0, 0.0], black),
+            shadows: false,
         }),
         Light::Point(PointLight {
             position: [1.0, 2.0, 3.0],
             attenuation: [0.0, 0.0, 1.0],
             colors: colors(black, white, white),
+            shadows: false,
         }),
         Light::Spot(SpotLight {
             position: [0.0, 3.0, 0.0],
@@ -185,6 +187,7 @@ fn every_light() {
             cutoff_deg: 180.0,
             exponent: 2.0,
             colors: colors(black, black, [0.0, 1.0, 0.0]),
+            shadows: false,
         }),
         Light::Spot(SpotLight {
             position: [0.0, 3.0, 0.0],
@@ -193,6 +196,7 @@ fn every_light() {
             cutoff_deg: 30.0,
             exponent: 0.0,
             colors: colors(black, white, white),
+            shadows: false,
         }),
     ];
     assert_eq!(scene.lights, expected);

@@ -26,6 +26,8 @@ fn piece(part: &MeshPart, transform: Transform) -> Piece<'_> {
         transform,
         name: "part".to_owned(),
         sides: Sides::Single,
+        shading: Shading::Phong,
+        naive_normals: false,
         source: Source::Shape("part".to_owned()),
         materials: vec![0; part.corners.len()],
     }

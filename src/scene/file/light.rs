@@ -32,6 +32,12 @@ pub struct LightFile {
     pub exponent: Option<Spanned<f64>>,
     /// Whether the light casts shadows.
     pub shadows: Option<Spanned<bool>>,
+    /// Towards the top colour.
+    pub direction: Option<Spanned<[f64; 3]>>,
+    /// Top colour.
+    pub top: Option<Spanned<[f64; 3]>>,
+    /// Bottom colour.
+    pub bottom: Option<Spanned<[f64; 3]>>,
     /// All keys that are written, and where.
     pub written: Vec<Spanned<String>>,
     /// Bytes of the text at which the light begins.
@@ -54,10 +60,9 @@ impl LightFile {
         let cutoff_deg = keys.read("cutoff_deg", number, faults);
         let exponent = keys.read("exponent", number, faults);
         let shadows = keys.read("shadows", boolean, faults);
-        // Hemisphere lights: known, and refused by their type.
-        for key in ["direction", "top", "bottom"] {
-            keys.read(key, numbers::<3>, faults);
-        }
+        let direction = keys.read("direction", numbers, faults);
+        let top = keys.read("top", numbers, faults);
+        let bottom = keys.read("bottom", numbers, faults);
         if !keys.close(faults) {
             return None;
         }
@@ -74,6 +79,9 @@ impl LightFile {
             cutoff_deg,
             exponent,
             shadows,
+            direction,
+            top,
+            bottom,
             written,
             span,
         })

@@ -5,7 +5,7 @@ use crate::scene::camera::unit;
 use crate::scene::file::text::Faults;
 use crate::scene::file::{LightFile, effect_of_light_type, suggestion};
 use crate::scene::light::{
-    AmbientLight, DirectionalLight, Light, LightColors, PointLight, SpotLight,
+    AmbientLight, DirectionalLight, HemisphereLight, Light, LightColors, PointLight, SpotLight,
 };
 use toml::Spanned;
 
@@ -58,19 +58,13 @@ pub(super) fn resolve(light: &LightFile, faults: &mut Faults<'_>) -> Option<Ligh
             faults.at_with_help(&key.span(), message, help);
         }
     }
-    if let Some(shadows) = light.shadows.as_ref().filter(|shadows| *shadows.get_ref()) {
-        faults.at(&shadows.span(), "shadows are not simulated by this version");
-    }
     let made = match kind {
         "ambient" => required(&light.ambient, "ambient", light, faults)
             .map(|rgb| Light::Ambient(AmbientLight { ambient: color(rgb, "ambient", faults) })),
         "directional" => directional(light, faults).map(Light::Directional),
         "point" => point(light, faults).map(Light::Point),
         "spot" => spot(light, faults).map(Light::Spot),
-        _ => {
-            faults.at(&light.kind.span(), "hemisphere lights are not simulated by this version");
-            None
-        }
+        _ => hemisphere(light, faults).map(Light::Hemisphere),
     };
     made.filter(|_| faults.errors.len() == before)
 }
@@ -78,14 +72,29 @@ pub(super) fn resolve(light: &LightFile, faults: &mut Faults<'_>) -> Option<Ligh
 fn directional(light: &LightFile, faults: &mut Faults<'_>) -> Option<DirectionalLight> {
     let colors = colors(light, faults);
     let aim = required(&light.aim, "aim", light, faults)?;
-    Some(DirectionalLight { aim: direction(aim, *aim.get_ref(), "aim", faults)?, colors })
+    let aim = direction(aim, *aim.get_ref(), "aim", faults)?;
+    Some(DirectionalLight { aim, colors, shadows: shadows(light) })
+}
+
+fn hemisphere(light: &LightFile, faults: &mut Faults<'_>) -> Option<HemisphereLight> {
+    let way = required(&light.direction, "direction", light, faults);
+    let up = way.and_then(|way| direction(way, *way.get_ref(), "direction", faults));
+    let mut rgb = |key: &str, value: &Option<Spanned<[f64; 3]>>| {
+        required(value, key, light, faults).map(|rgb| color(rgb, key, faults))
+    };
+    let (top, bottom) = (rgb("top", &light.top), rgb("bottom", &light.bottom));
+    Some(HemisphereLight { up: up?, top: top?, bottom: bottom? })
+}
+
+fn shadows(light: &LightFile) -> bool {
+    light.shadows.as_ref().is_some_and(|shadows| *shadows.get_ref())
 }
 
 fn point(light: &LightFile, faults: &mut Faults<'_>) -> Option<PointLight> {
     let colors = colors(light, faults);
     let attenuation = attenuation(light, faults);
     let position = *required(&light.position, "position", light, faults)?.get_ref();
-    Some(PointLight { position, attenuation, colors })
+    Some(PointLight { position, attenuation, colors, shadows: shadows(light) })
 }
 
 fn spot(light: &LightFile, faults: &mut Faults<'_>) -> Option<SpotLight> {
@@ -105,7 +114,8 @@ fn spot(light: &LightFile, faults: &mut Faults<'_>) -> Option<SpotLight> {
     if let Some(value) = light.exponent.as_ref().filter(|_| cutoff_deg == 180.0) {
         faults.warn(&value.span(), "`exponent` has no effect: a cutoff of 180° is no cone");
     }
-    Some(SpotLight { position: position?, aim: aim?, attenuation, cutoff_deg, exponent, colors })
+    let (position, aim, shadows) = (position?, aim?, shadows(light));
+    Some(SpotLight { position, aim, attenuation, cutoff_deg, exponent, colors, shadows })
 }
 
 /// `aim`, or the direction from the light to `target`.

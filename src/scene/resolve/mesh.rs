@@ -10,7 +10,7 @@ use crate::scene::file::{GeneratedFile, MeshFile, SceneFile, SourceFile, suggest
 use crate::scene::part::MeshPart;
 use crate::scene::shapes::{self, Shape};
 use crate::scene::transform::Transform;
-use crate::scene::{Sides, Source};
+use crate::scene::{Shading, Sides, Source};
 use std::path::Path;
 use toml::Spanned;
 
@@ -18,6 +18,7 @@ pub(super) fn resolve(
     file: &SceneFile,
     base: &Path,
     materials: &mut Materials,
+    naive_normals: bool,
     faults: &mut Faults<'_>,
 ) -> Assembly {
     let mut assembly = Assembly::default();
@@ -26,7 +27,7 @@ pub(super) fn resolve(
         // Report every fault of the mesh before giving it up.
         let transform = transform(mesh, faults);
         let sides = sides(mesh, faults);
-        check_shading(mesh, faults);
+        let shading = shading(mesh, faults);
         let named = named_material(mesh, file, materials, faults);
         let made;
         let (part, name, source, own) = match &mesh.source {
@@ -49,6 +50,8 @@ pub(super) fn resolve(
             part,
             transform,
             sides,
+            shading,
+            naive_normals,
             materials: triangle_materials(part, named, &own, materials),
             name,
             source,
@@ -122,20 +125,16 @@ fn sides(mesh: &MeshFile, faults: &mut Faults<'_>) -> Sides {
     }
 }
 
-fn check_shading(mesh: &MeshFile, faults: &mut Faults<'_>) {
-    let Some(shading) = &mesh.shading else { return };
-    match shading.get_ref().as_str() {
-        "phong" => {}
-        word @ ("gouraud" | "flat") => {
-            let message = format!("{word} shading is not simulated by this version");
-            faults.at_with_help(&shading.span(), message, "only \"phong\" is");
-        }
-        other => {
-            let words = ["phong", "gouraud", "flat"];
-            let message = format!("there is no shading \"{other}\"");
-            faults.at_with_help(&shading.span(), message, suggestion(other, &words));
-        }
+fn shading(mesh: &MeshFile, faults: &mut Faults<'_>) -> Shading {
+    let Some(written) = &mesh.shading else { return Shading::Phong };
+    let word = written.get_ref().as_str();
+    let known = Shading::NAMED.iter().find(|(_, name)| *name == word);
+    if known.is_none() {
+        let words = Shading::NAMED.map(|(_, name)| name);
+        let message = format!("there is no shading \"{word}\"");
+        faults.at_with_help(&written.span(), message, suggestion(word, &words));
     }
+    known.map_or(Shading::Phong, |&(shading, _)| shading)
 }
 
 /// The number of the material that the mesh names.

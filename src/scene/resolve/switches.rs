@@ -1,28 +1,23 @@
-//! Dialect and switches: known words, and of them what this version simulates.
+//! Dialect and switches: the preset that the scene names, and what it sets apart from it.
 
 use crate::scene::file::text::Faults;
 use crate::scene::file::{SceneFile, suggestion};
 use crate::scene::switches::{DIALECTS, Switches};
 
 pub(super) fn resolve(file: &SceneFile, faults: &mut Faults<'_>) -> Switches {
-    let simulated = Switches::default();
+    let mut switches = Switches::default();
     if let Some(dialect) = &file.dialect {
         let name = dialect.get_ref().as_str();
-        if !DIALECTS.contains(&name) {
-            let help = suggestion(name, &DIALECTS);
-            faults.at_with_help(&dialect.span(), format!("there is no dialect `{name}`"), help);
-        } else if name != simulated.dialect {
-            let message = format!("the dialect `{name}` is not simulated by this version");
-            faults.at_with_help(&dialect.span(), message, "only `curless` is");
+        match Switches::of_dialect(name) {
+            Some(preset) => switches = preset,
+            None => {
+                let help = suggestion(name, &DIALECTS);
+                faults.at_with_help(&dialect.span(), format!("there is no dialect `{name}`"), help);
+            }
         }
     }
     for switch in &file.switches {
-        let only = simulated.get(switch.name);
-        if let Some(only) = only.filter(|only| only != switch.value.get_ref()) {
-            let (name, value) = (switch.name, switch.value.get_ref());
-            let message = format!("`{name} = {value}` is not simulated by this version");
-            faults.at_with_help(&switch.value.span(), message, format!("only `{only}` is"));
-        }
+        switches = switches.with(switch.name, *switch.value.get_ref());
     }
-    simulated
+    switches
 }

@@ -112,6 +112,12 @@ fn set_light(light: &mut Light, field: usize, value: f64, channel: usize, dice: 
     };
     match light {
         Light::Ambient(light) => light.ambient[channel] = value,
+        Light::Hemisphere(light) => match field {
+            12..=15 => light.top[channel] = value,
+            16..=19 => light.bottom[channel] = value,
+            20 => light.up = aim,
+            _ => {}
+        },
         Light::Directional(light) => {
             set_colors(&mut light.colors);
             if field == 20 {
@@ -203,7 +209,7 @@ fn a_scene_scaled_by_a_power_of_two_keeps_every_bit() {
         match light {
             Light::Point(light) => light.attenuation = [1.0, 0.0, 0.0],
             Light::Spot(light) => light.attenuation = [1.0, 0.0, 0.0],
-            Light::Ambient(_) | Light::Directional(_) => {}
+            Light::Ambient(_) | Light::Directional(_) | Light::Hemisphere(_) => {}
         }
     }
     let expected = shade::shade(&original, &look(&original), Effects::ALL, &|| ());
@@ -215,7 +221,7 @@ fn a_scene_scaled_by_a_power_of_two_keeps_every_bit() {
             match light {
                 Light::Point(light) => light.position = light.position.map(|c| c * s),
                 Light::Spot(light) => light.position = light.position.map(|c| c * s),
-                Light::Ambient(_) | Light::Directional(_) => {}
+                Light::Ambient(_) | Light::Directional(_) | Light::Hemisphere(_) => {}
             }
         }
         let camera = &original.camera;

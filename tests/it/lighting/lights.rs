@@ -12,7 +12,7 @@ use truecast::shade::{self, Effects, LightTerm, Outcome};
 /// Every light's term at the pixel that looks at (x, y, 0).
 fn terms_at(scene: &Scene, x: i32, y: i32) -> Vec<LightTerm> {
     let visible = super::stage::look_at(scene, pixel_at(x, y)).unwrap();
-    shade::terms(scene, pixel_at(x, y), &visible).lights
+    shade::terms(scene, pixel_at(x, y), &visible, None).lights
 }
 
 #[test]

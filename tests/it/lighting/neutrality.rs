@@ -2,8 +2,8 @@
 //! for, and the threads that shade it.
 
 use super::stage::{
-    ambient, bits, colors, directional, floor, look, octahedron, point, smooth_octahedron, spot,
-    white,
+    ambient, bits, colors, directional, floor, hemisphere, look, octahedron, point,
+    smooth_octahedron, spot, white,
 };
 use super::{matte, shiny};
 use truecast::scene::Scene;
@@ -33,6 +33,7 @@ pub(super) fn busy_scene() -> Scene {
         ambient([0.2, 0.3, 0.4]),
         Light::Spot(cone),
         point([-6.0, 1.0, 7.0], [0.5, 0.1, 0.01], uneven),
+        hemisphere([1.0, 3.0, 0.5], [0.2, 0.3, 0.6], [0.1, 0.05, 0.0]),
     ];
     scene
 }
@@ -65,6 +66,14 @@ fn scenes() -> Vec<(&'static str, Scene)> {
         ),
         ("open spot", with(floor(), glossy(), vec![disc(180.0, 9.0)])),
         ("hard spot", with(floor(), glossy(), vec![disc(30.0, 0.0), lamp()])),
+        (
+            "sky",
+            with(
+                smooth_octahedron(),
+                grey(),
+                vec![hemisphere([0.0, 1.0, 0.0], [0.9, 0.8, 0.7], [0.0, 0.1, 0.2])],
+            ),
+        ),
         ("wide hard spot", with(floor(), grey(), vec![Light::Spot(sideways)])),
         ("everything", busy_scene()),
     ]
@@ -107,7 +116,8 @@ fn effects_that_are_called_for_matter_and_others_are_never_evaluated() {
 fn callers_are_named() {
     let calls = shade::explain(&busy_scene());
     assert_eq!(calls.len(), Effects::NAMED.len());
-    assert!(calls.iter().all(|call| call.on));
+    let off: Vec<_> = calls.iter().filter(|call| !call.on).map(|call| call.effect).collect();
+    assert_eq!(off, ["shadows"]);
     let called_by = |effect: &str| {
         let call = calls.iter().find(|call| call.effect == effect).unwrap();
         call.called_by.join(", ")
@@ -134,7 +144,7 @@ fn terms_and_single_points_sum_to_the_pixel() {
         let shaded = shade::shade(&scene, &buffer, Effects::of(&scene), &|| ());
         for (index, pixel) in buffer.window.pixels().enumerate() {
             let Some(visible) = buffer.at(pixel) else { continue };
-            let terms = shade::terms(&scene, pixel, visible);
+            let terms = shade::terms(&scene, pixel, visible, None);
             assert_eq!(bits(&[terms.sum()]), bits(&shaded.radiance[index..=index]), "{name}");
             let (_, material) = scene.material_of(visible.triangle);
             let alone = shade::shade_point(&scene, &terms.surface, material);

@@ -5,7 +5,7 @@ use truecast::pixel::{Pixel, Resolution};
 use truecast::scene::Scene;
 use truecast::scene::camera::PinholeCamera;
 use truecast::scene::light::{
-    AmbientLight, DirectionalLight, Light, LightColors, PointLight, SpotLight,
+    AmbientLight, DirectionalLight, HemisphereLight, Light, LightColors, PointLight, SpotLight,
 };
 use truecast::shade::{self, Effects};
 use truecast::visibility::{Facing, Level, LevelCounts, VisibilityBuffer, Visible};
@@ -81,12 +81,16 @@ pub(super) fn ambient(ambient: V3) -> Light {
     Light::Ambient(AmbientLight { ambient })
 }
 
+pub(super) fn hemisphere(up: V3, top: V3, bottom: V3) -> Light {
+    Light::Hemisphere(HemisphereLight { up: unit(up), top, bottom })
+}
+
 pub(super) fn directional(aim: V3, colors: LightColors) -> Light {
-    Light::Directional(DirectionalLight { aim: unit(aim), colors })
+    Light::Directional(DirectionalLight { aim: unit(aim), colors, shadows: false })
 }
 
 pub(super) fn point(position: V3, attenuation: V3, colors: LightColors) -> Light {
-    Light::Point(PointLight { position, attenuation, colors })
+    Light::Point(PointLight { position, attenuation, colors, shadows: false })
 }
 
 pub(super) fn spot(position: V3, aim: V3, cutoff_deg: f64, exponent: f64) -> SpotLight {
@@ -97,6 +101,7 @@ pub(super) fn spot(position: V3, aim: V3, cutoff_deg: f64, exponent: f64) -> Spo
         cutoff_deg,
         exponent,
         colors: white(),
+        shadows: false,
     }
 }
 

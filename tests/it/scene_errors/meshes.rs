@@ -46,14 +46,13 @@ fn meshes() {
         &["a mesh has either `file` or `shape`, not both"],
     );
     mesh_refused(
-        "shading = ▸\"flat\"\nsides = ▸\"both\"\n",
+        "shading = ▸\"flatt\"\nsides = ▸\"both\"\n",
         &[
-            "flat shading is not simulated by this version",
+            "there is no shading \"flatt\"",
             "`sides` must be \"single\" or \"double\", not \"both\"",
         ],
     );
     mesh_refused("shading = ▸\"phon\"\n", &["there is no shading \"phon\""]);
-    mesh_refused("shading = ▸\"gouraud\"\n", &["gouraud shading is not simulated by this version"]);
     mesh_refused(
         "matrix = ▸[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 1, 1]]\nscale = ▸1\ntranslate = ▸[0, 0, 0]\n",
         &[
