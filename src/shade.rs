@@ -14,6 +14,7 @@ pub mod hemisphere;
 mod kernel;
 mod lights;
 mod method;
+mod reach;
 pub mod reflection;
 pub mod surface;
 pub mod terms;
@@ -33,7 +34,7 @@ use crate::pixel::{self, Pixel};
 use crate::scene::Scene;
 use crate::scene::material::Material;
 use crate::visibility::{VisibilityBuffer, Visible};
-use equation::{Coefficients, Geometry, KernelEffects, NEVER_HIDDEN};
+use equation::{Coefficients, Geometry, KernelEffects, Lighting};
 use kernel::Frame;
 use method::Method;
 use std::sync::Mutex;
@@ -136,7 +137,7 @@ pub fn shade_point(scene: &Scene, point: &SurfacePoint, material: &Material) -> 
         &frame,
         &coefficients,
         Some(&geometry),
-        NEVER_HIDDEN,
+        Lighting::OPEN,
         &mut Nobody,
     )
 }
@@ -167,7 +168,8 @@ pub fn terms(
     let is_hidden = |light| frame.is_hidden(pixel, visible, light);
     let lights_at = |geometry: Option<&Geometry>| {
         let mut lights = vec![LightTerm::DARK; scene.lights.len()];
-        equation::radiance_of::<ALL, _>(&frame, &coefficients, geometry, &is_hidden, &mut lights);
+        let lighting = Lighting { reaches: &[], is_hidden: &is_hidden };
+        equation::radiance_of::<ALL, _>(&frame, &coefficients, geometry, lighting, &mut lights);
         lights
     };
     let method = frame.methods[object];

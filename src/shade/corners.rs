@@ -5,7 +5,7 @@
 //! Sources: Gouraud, "Continuous Shading of Curved Surfaces" (1971), by way of Curless, "Shading"
 //! and IIT, "Gouraud Surface Rendering"; OpenGL's provoking vertex.
 
-use super::equation::{Coefficients, Geometry, IsHidden, KernelEffects, radiance_of};
+use super::equation::{Coefficients, Geometry, KernelEffects, Lighting, radiance_of};
 use super::kernel::Frame;
 use super::surface;
 use super::watch::Watch;
@@ -73,9 +73,9 @@ pub(super) fn lit<const E: u8, W: Watch>(
     frame: &Frame<'_>,
     coefficients: &Coefficients,
     point: &Geometry,
-    is_hidden: IsHidden<'_>,
+    lighting: Lighting<'_>,
     watch: &mut W,
 ) -> LinearRgb {
     let point = frame.sees(coefficients, const { KernelEffects(E) }).then_some(point);
-    radiance_of::<E, W>(frame, coefficients, point, is_hidden, watch)
+    radiance_of::<E, W>(frame, coefficients, point, lighting, watch)
 }

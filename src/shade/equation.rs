@@ -111,18 +111,26 @@ impl Coefficients {
     }
 }
 
-/// Whether the light at a position of the scene's list is hidden from the surface point.
-pub(super) type IsHidden<'a> = &'a dyn Fn(usize) -> bool;
+/// What is known beforehand of the lights at a point.
+#[derive(Clone, Copy)]
+pub(super) struct Lighting<'a> {
+    /// Per prepared light, whether it may reach the point; all do where the list is shorter.
+    pub(super) reaches: &'a [bool],
+    /// Whether the light at a position of the scene's list is hidden from the point.
+    pub(super) is_hidden: &'a dyn Fn(usize) -> bool,
+}
 
-/// Nothing hides a light.
-pub(super) const NEVER_HIDDEN: IsHidden<'static> = &|_| false;
+impl Lighting<'static> {
+    /// Every light may reach the point, and nothing hides one.
+    pub(super) const OPEN: Self = Self { reaches: &[], is_hidden: &|_| false };
+}
 
 /// The equation at one point. Without `geometry` no light has a direction.
 pub(super) fn radiance_of<const E: u8, W: Watch>(
     frame: &Frame<'_>,
     coefficients: &Coefficients,
     geometry: Option<&Geometry>,
-    is_hidden: IsHidden<'_>,
+    lighting: Lighting<'_>,
     watch: &mut W,
 ) -> LinearRgb {
     let mut radiance = [0.0; 3];
@@ -130,14 +138,19 @@ pub(super) fn radiance_of<const E: u8, W: Watch>(
         watch.evaluated(Effects::EMISSION);
         accumulate(&mut radiance, coefficients.emission);
     }
-    for light in &frame.lights {
+    for (position, light) in frame.lights.iter().enumerate() {
         let mut term = LightTerm::DARK;
         if let Some(ambient) = light.ambient {
             watch.evaluated(Effects::AMBIENT);
             term.ambient = product(coefficients.ambient, ambient);
         }
-        if let Some(geometry) = geometry {
-            let rules = frame.rules;
+        if lighting.reaches.get(position) == Some(&false) {
+            term.outcome = Outcome::OutsideCone;
+            if light.fades_ambient {
+                term.ambient = [0.0; 3];
+            }
+        } else if let Some(geometry) = geometry {
+            let (rules, is_hidden) = (frame.rules, lighting.is_hidden);
             light_up::<E, W>(light, rules, coefficients, geometry, is_hidden, &mut term, watch);
         }
         accumulate_light(&mut radiance, &term);
@@ -152,7 +165,7 @@ fn light_up<const E: u8, W: Watch>(
     rules: &Rules,
     coefficients: &Coefficients,
     geometry: &Geometry,
-    is_hidden: IsHidden<'_>,
+    is_hidden: &dyn Fn(usize) -> bool,
     term: &mut LightTerm,
     watch: &mut W,
 ) {
@@ -221,9 +234,6 @@ fn light_up<const E: u8, W: Watch>(
     }
     n_dot_l *= geometry.normal_length;
     term.n_dot_l = Some(n_dot_l);
-    if n_dot_l.abs() < TERMINATOR {
-        watch.note(Note::NearTerminator);
-    }
     let shines = effects.has(KernelEffects::SPECULAR)
         && !is_black(specular)
         && match rules.backlit_specular {
@@ -231,7 +241,8 @@ fn light_up<const E: u8, W: Watch>(
             BacklitSpecular::DarkBelow => n_dot_l >= 0.0,
             BacklitSpecular::NeverDark => true,
         };
-    if n_dot_l <= 0.0 && !shines {
+    let is_doubtful = n_dot_l.abs() < TERMINATOR;
+    if n_dot_l <= 0.0 && !shines && !is_doubtful {
         term.outcome = Outcome::FacesAway;
         return;
     }
@@ -249,6 +260,15 @@ fn light_up<const E: u8, W: Watch>(
     if factor == 0.0 {
         term.outcome = Outcome::Faded;
         return;
+    }
+
+    // A light that reaches the point leaves its side in doubt here.
+    if is_doubtful {
+        watch.note(Note::NearTerminator);
+        if n_dot_l <= 0.0 && !shines {
+            term.outcome = Outcome::FacesAway;
+            return;
+        }
     }
 
     // Ask for a shadow last: it costs most.

@@ -5,11 +5,10 @@
 
 use super::corners::{self, Memo};
 use super::effects::Effects;
-use super::equation::{
-    Coefficients, Geometry, IsHidden, KernelEffects, Mixture, NEVER_HIDDEN, radiance_of,
-};
+use super::equation::{Coefficients, Geometry, KernelEffects, Lighting, Mixture, radiance_of};
 use super::lights::{self, Origin, PreparedLight, is_black};
 use super::method::Method;
+use super::reach::{self, Bounds, RUN};
 use super::surface;
 use super::watch::{Note, Watch};
 use super::weights::{mix_colors, weights};
@@ -34,6 +33,8 @@ pub(super) struct Frame<'a> {
     directed: bool,
     /// Whether any light casts shadows.
     pub(super) shadowed: bool,
+    /// Whether it is worth asking which lights reach a run of pixels.
+    selects_lights: bool,
     occlusion: Option<Occlusion<'a>>,
 }
 
@@ -53,7 +54,25 @@ impl<'a> Frame<'a> {
         let directed = lights.iter().any(|light| !matches!(light.origin, Origin::Nowhere));
         let shadowed = lights.iter().any(|light| light.shadows);
         let methods = Method::of_objects(scene);
-        Self { scene, rules, effects, lights, methods, directed, shadowed, occlusion }
+        let has_cone = |light: &PreparedLight| match &light.origin {
+            Origin::Position(at) => at.cone.as_ref().is_some_and(|cone| cone.cutoff.is_some()),
+            _ => false,
+        };
+        // One cone is tested as quickly as a run's bounds are found; and directions that are mixed
+        // from the corners are tested before the cone.
+        let cones = lights.iter().filter(|light| has_cone(light)).count();
+        let selects_lights = cones > 1 && !rules.interpolate_vectors;
+        Self {
+            scene,
+            rules,
+            effects,
+            lights,
+            methods,
+            directed,
+            shadowed,
+            selects_lights,
+            occlusion,
+        }
     }
 
     /// Whether a light is hidden from the surface at a pixel.
@@ -98,21 +117,53 @@ fn shade_row<const E: u8, W: Watch>(
     watch: &mut W,
 ) {
     let mut memo = Memo::default();
-    for ((x, visible), out) in (window.x0()..).zip(visible).zip(radiance) {
-        *out = match visible {
-            Some(visible) => shade_pixel::<E, W>(frame, Pixel { x, y }, visible, &mut memo, watch),
-            None => frame.scene.background,
-        };
-        if !out.iter().all(|value| value.is_finite()) {
-            watch.note(Note::NonFinite);
+    let mut reaches = vec![true; if frame.selects_lights { frame.lights.len() } else { 0 }];
+    let runs = visible.chunks(RUN).zip(radiance.chunks_mut(RUN));
+    for (first, (visible, radiance)) in (window.x0()..).step_by(RUN).zip(runs) {
+        if frame.selects_lights {
+            reach::mark(&frame.lights, &bounds(frame, first, y, visible), &mut reaches);
+        }
+        for ((x, visible), out) in (first..).zip(visible).zip(radiance) {
+            *out = match visible {
+                Some(visible) => {
+                    let pixel = Pixel { x, y };
+                    shade_pixel::<E, W>(frame, pixel, visible, &reaches, &mut memo, watch)
+                }
+                None => frame.scene.background,
+            };
+            if !out.iter().all(|value| value.is_finite()) {
+                watch.note(Note::NonFinite);
+            }
         }
     }
+}
+
+/// A box around every point of a run at which the equation may be evaluated. Colours that are
+/// shared by the pixels of a triangle are evaluated at its corners and its centroid.
+fn bounds(frame: &Frame<'_>, first: u32, y: u32, run: &[Option<Visible>]) -> Bounds {
+    let scene = frame.scene;
+    let mut bounds = Bounds::EMPTY;
+    for (x, visible) in (first..).zip(run) {
+        let Some(visible) = visible else { continue };
+        match frame.methods[scene.object_of(visible.triangle).0] {
+            Method::SmoothPixel | Method::FlatPixel => {
+                bounds.add(surface::position(scene, Pixel { x, y }, visible));
+            }
+            Method::SmoothCorners | Method::FlatCorners | Method::Centroid | Method::LastCorner => {
+                let corners = scene.mesh.triangle(visible.triangle);
+                corners.iter().for_each(|corner| bounds.add(corner.map(f64::from)));
+            }
+            Method::VertexColors => {}
+        }
+    }
+    bounds
 }
 
 fn shade_pixel<const E: u8, W: Watch>(
     frame: &Frame<'_>,
     pixel: Pixel,
     visible: &Visible,
+    reaches: &[bool],
     memo: &mut Memo,
     watch: &mut W,
 ) -> LinearRgb {
@@ -120,8 +171,8 @@ fn shade_pixel<const E: u8, W: Watch>(
     let (object, _) = scene.object_of(visible.triangle);
     let (_, material) = scene.material_of(visible.triangle);
     let coefficients = Coefficients::of(material, frame.rules);
-    let hidden = |light| frame.is_hidden(pixel, visible, light);
-    let is_hidden: IsHidden<'_> = if frame.shadowed { &hidden } else { NEVER_HIDDEN };
+    let is_hidden = |light| frame.is_hidden(pixel, visible, light);
+    let lighting = Lighting { reaches, is_hidden: &is_hidden };
     match frame.methods[object] {
         method @ (Method::SmoothPixel | Method::FlatPixel) => {
             let geometry = geometry_at_pixel::<E, W>(
@@ -132,15 +183,14 @@ fn shade_pixel<const E: u8, W: Watch>(
                 &coefficients,
                 watch,
             );
-            radiance_of::<E, W>(frame, &coefficients, geometry.as_ref(), is_hidden, watch)
+            radiance_of::<E, W>(frame, &coefficients, geometry.as_ref(), lighting, watch)
         }
         method @ (Method::SmoothCorners | Method::FlatCorners) => {
             let is_smooth = method == Method::SmoothCorners;
-            let all = [0, 1, 2];
             let colors = memo.colors(visible, frame.shadowed, || {
-                all.map(|corner| {
+                [0, 1, 2].map(|corner| {
                     let point = corners::at_corner(frame, visible, corner, is_smooth, watch);
-                    corners::lit::<E, W>(frame, &coefficients, &point, is_hidden, watch)
+                    corners::lit::<E, W>(frame, &coefficients, &point, lighting, watch)
                 })
             });
             mix_colors(weights(scene, visible, watch), colors)
@@ -151,7 +201,7 @@ fn shade_pixel<const E: u8, W: Watch>(
                     Method::Centroid => corners::at_centroid(frame, visible, watch),
                     _ => corners::at_corner(frame, visible, 2, true, watch),
                 };
-                [corners::lit::<E, W>(frame, &coefficients, &point, is_hidden, watch); 3]
+                [corners::lit::<E, W>(frame, &coefficients, &point, lighting, watch); 3]
             })[0]
         }
         Method::VertexColors => material.kd,
