@@ -9,11 +9,13 @@ pub mod blinn_phong;
 mod calls;
 pub mod effects;
 mod equation;
+pub mod footprint;
 mod kernel;
 mod lights;
 pub mod reflection;
 pub mod surface;
 pub mod terms;
+pub mod texture;
 mod vector;
 pub mod watch;
 
