@@ -175,4 +175,18 @@ pub struct TextureRequests {
     pub kd: Option<TextureRequest>,
     /// That of ks.
     pub ks: Option<TextureRequest>,
+    /// What the material is without those that are left out.
+    pub untextured: Untextured,
+}
+
+/// Coefficients that a material has where a texture that it may lack is left out. A texture stands
+/// for a coefficient that is not written; without it the default does.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Untextured {
+    /// Without the texture of kd.
+    pub ka: LinearRgb,
+    /// Without the texture of kd.
+    pub kd: LinearRgb,
+    /// Without the texture of ks.
+    pub ks: LinearRgb,
 }

@@ -35,8 +35,7 @@ pub fn sample(
 pub fn texture_uv(reference: &TextureRef, uv: [f64; 2]) -> [f64; 2] {
     std::array::from_fn(|k| {
         let moved = uv[k] * reference.scale[k] + reference.offset[k];
-        // `max` takes the number where the other is NaN.
-        moved.max(f64::MIN).min(f64::MAX)
+        if moved.is_nan() { 0.0 } else { moved.clamp(f64::MIN, f64::MAX) }
     })
 }
 

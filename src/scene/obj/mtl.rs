@@ -11,7 +11,7 @@ use crate::scene::error::SceneError;
 use crate::scene::material::Material;
 use crate::scene::obj::report::{Report, quote};
 use crate::scene::obj::statement::{Statements, without_comment};
-use crate::scene::texture::{TextureRequest, TextureRequests};
+use crate::scene::texture::{TextureRequest, TextureRequests, Untextured};
 use map::read_map;
 use std::collections::HashMap;
 use std::path::Path;
@@ -221,6 +221,12 @@ fn finish(draft: Option<Draft>, file: &Path, library: &mut Library, report: &mut
     let default = Material::default_named(&draft.name);
     // A texture alone is the whole coefficient.
     let unless_textured = |map: &Option<_>, default| if map.is_some() { [1.0; 3] } else { default };
+    let plain_kd = draft.kd.unwrap_or(default.kd);
+    let untextured = Untextured {
+        ka: draft.ka.unwrap_or(plain_kd),
+        kd: plain_kd,
+        ks: draft.ks.unwrap_or(default.ks),
+    };
     let kd = draft.kd.unwrap_or(unless_textured(&draft.kd_map, default.kd));
     let ks = draft.ks.unwrap_or(unless_textured(&draft.ks_map, default.ks));
     let material = Material {
@@ -232,7 +238,8 @@ fn finish(draft: Option<Draft>, file: &Path, library: &mut Library, report: &mut
         ..default
     };
     let ks_map = draft.ks_map.filter(|_| draft.has_specular);
-    if library.insert(material, TextureRequests { kd: draft.kd_map, ks: ks_map }) {
+    let textures = TextureRequests { kd: draft.kd_map, ks: ks_map, untextured };
+    if library.insert(material, textures) {
         let sentence = "materials are defined again; the last definition counts";
         report.warn(file, draft.line, sentence);
     }

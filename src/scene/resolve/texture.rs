@@ -43,7 +43,11 @@ pub(super) fn requests(
             required: true,
         })
     };
-    TextureRequests { kd: request(&written.kd_map), ks: request(&written.ks_map) }
+    TextureRequests {
+        kd: request(&written.kd_map),
+        ks: request(&written.ks_map),
+        ..TextureRequests::default()
+    }
 }
 
 /// The value of a key that takes one of some words.
@@ -82,6 +86,14 @@ pub(super) fn resolve(
             let mut read = |request: &Option<_>| shelf.read(request.as_ref()?, faults);
             material.kd_map = read(&requests.kd);
             material.ks_map = read(&requests.ks);
+            // Where a texture that is required is missing, there will be no scene.
+            let untextured = requests.untextured;
+            if requests.kd.is_some() && material.kd_map.is_none() {
+                (material.ka, material.kd) = (untextured.ka, untextured.kd);
+            }
+            if requests.ks.is_some() && material.ks_map.is_none() {
+                material.ks = untextured.ks;
+            }
         }
     }
     if !shelf.textures.is_empty() {

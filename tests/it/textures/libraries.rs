@@ -166,6 +166,18 @@ fn a_texture_that_is_missing_is_told_and_left_out() {
 }
 
 #[test]
+fn without_its_texture_a_coefficient_that_is_not_written_is_the_default() {
+    let coefficients = |library: &str| {
+        let material = scene(library).1.unwrap().materials[0].clone();
+        (material.ka[0], material.kd[0], material.ks[0])
+    };
+    assert_eq!(coefficients("map_Kd gone.png\nmap_Ks gone.png"), (0.8, 0.8, 0.0));
+    assert_eq!(coefficients("map_Kd four.png\nmap_Ks gone.png"), (1.0, 1.0, 0.0));
+    assert_eq!(coefficients("Ka 1\nmap_Kd gone.png\nmap_Ks four.png"), (1.0, 0.8, 1.0));
+    assert_eq!(coefficients("Ks 0.5\nmap_Ks gone.png\nKd 0.25"), (0.25, 0.25, 0.5));
+}
+
+#[test]
 fn a_texture_that_is_damaged_is_an_error_of_the_library() {
     let (folder, scene) = scene("map_Ks cut.png");
     let errors = scene.unwrap_err();
