@@ -1,8 +1,8 @@
 //! Linear RGB, and its encoding to sRGB codes at the very end.
 //!
-//! Radiance is linear, unclamped and f64 until it is stored. No tone mapping lives here, and no
-//! power function either: codes come from tables of exact steps, so they are the same on every
-//! platform. The curve is that of IEC 61966-2-1.
+//! Radiance is linear, unclamped and f64 until it is stored. No tone mapping lives here. 8-bit codes
+//! come from tables of exact steps, so they are the same on every platform; 16-bit codes, which only
+//! textures have, go through `libm`'s power function. The curve is that of IEC 61966-2-1.
 
 mod srgb_levels;
 mod srgb_thresholds;
@@ -28,6 +28,16 @@ pub fn srgb_code(linear: f64) -> u8 {
 /// The linear value, in [0, 1], of an 8-bit sRGB code: EOTF(code/255), rounded once.
 pub fn srgb_decode(code: u8) -> f64 {
     LEVELS[usize::from(code)]
+}
+
+/// The linear value, in [0, 1], of a 16-bit sRGB code: EOTF(code/65535) by `libm::pow`, so the same
+/// everywhere, to within a few units of its last place.
+pub fn srgb_decode_16(code: u16) -> f64 {
+    let encoded = f64::from(code) / 65_535.0;
+    match encoded <= 0.04045 {
+        true => encoded / 12.92,
+        false => libm::pow((encoded + 0.055) / 1.055, 2.4),
+    }
 }
 
 #[cfg(test)]

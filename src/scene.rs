@@ -17,6 +17,7 @@ pub mod part;
 mod resolve;
 pub mod shapes;
 pub mod switches;
+pub mod texture;
 mod transform;
 
 pub use load::{Overrides, SceneErrors};
@@ -29,6 +30,7 @@ use material::Material;
 use std::ops::Range;
 use std::path::PathBuf;
 use switches::Switches;
+use texture::Texture;
 
 /// Everything that a picture depends on.
 #[derive(Clone, Debug)]
@@ -43,6 +45,8 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// Materials; triangles refer to them by position.
     pub materials: Vec<Material>,
+    /// The textures that the materials of triangles refer to by position, each file once.
+    pub textures: Vec<Texture>,
     /// Per triangle, position in `materials`.
     pub triangle_materials: Vec<u32>,
     /// Lights, in file order.
@@ -146,6 +150,7 @@ impl Scene {
                 source: Source::Shape("triangles".to_owned()),
             }],
             materials: vec![Material::default_named("default")],
+            textures: Vec::new(),
             triangle_materials: vec![0; triangles.len()],
             lights: Vec::new(),
             switches: Switches::default(),

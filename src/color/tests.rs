@@ -72,3 +72,16 @@ fn values_outside_the_unit_interval_end_at_its_ends() {
         assert_eq!(srgb_code(high), 255);
     }
 }
+
+#[test]
+fn sixteen_bit_codes_lie_on_the_curve_of_the_eight_bit_ones() {
+    for code in 0..=255_u8 {
+        let level = srgb_decode(code);
+        let deep = srgb_decode_16(257 * u16::from(code));
+        // Four units of the last place: the argument of pow is off by one, times 2.4, and pow by one.
+        assert!((deep - level).abs() <= 4.0 * f64::EPSILON * level, "{code}");
+    }
+    for code in 1..=u16::MAX {
+        assert!(srgb_decode_16(code - 1) < srgb_decode_16(code), "{code}");
+    }
+}

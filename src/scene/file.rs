@@ -47,15 +47,15 @@
 //! | `camera.gl.projection` | must | projection matrix, 4×4, NDC −1…1, y upwards |
 //! | `material.name` | must | name by which meshes refer to it; no name twice |
 //! | `material.ka` | `kd` | RGB: reflection of ambient light |
-//! | `material.kd` | `[0.8, 0.8, 0.8]` | RGB: diffuse reflection |
-//! | `material.ks` | `[0, 0, 0]` | RGB: specular reflection |
+//! | `material.kd` | `[0.8, 0.8, 0.8]`, with `kd_map` `[1, 1, 1]` | RGB: diffuse reflection |
+//! | `material.ks` | `[0, 0, 0]`, with `ks_map` `[1, 1, 1]` | RGB: specular reflection |
 //! | `material.ke` | `[0, 0, 0]` | RGB: emission |
 //! | `material.ns` | 32 | specular exponent, at least 0 |
 //! | `material.opacity` | 1 | 0…1; only 1 is simulated |
-//! | `material.kd_map` | none | texture of `kd`; not simulated by this version |
-//! | `material.ks_map` | none | texture of `ks`; not simulated by this version |
-//! | `material.filter` | none | filter of textures; not simulated by this version |
-//! | `material.wrap` | none | wrapping of textures; not simulated by this version |
+//! | `material.kd_map` | none | a PNG or JPEG file that multiplies `kd` where a triangle has texture coordinates; `ka` stays as it is |
+//! | `material.ks_map` | none | likewise for `ks` |
+//! | `material.filter` | `"bilinear"` | of both maps: `"nearest"`, `"bilinear"` or `"mip"` |
+//! | `material.wrap` | `"repeat"` | of both maps outside the uv square: `"repeat"` or `"clamp"` |
 //! | `mesh.file` | this or `shape` | an OBJ file |
 //! | `mesh.shape` | this or `file` | `{ NAME = { … } }`: a generated mesh, see [`shape`] |
 //! | `mesh.material` | the file's own, else the default one | name of a material |
@@ -106,6 +106,10 @@
 //! | flat | face-normal | one-point | one-point | vertex-face-normal | provoking |
 //!
 //! The other switches are the same in all of them.
+//!
+//! Codes of textures are sRGB, 8 or 16 bits; alpha and embedded profiles are not used. The origin
+//! of texture coordinates is the bottom left corner of the picture. A texture is read only if a
+//! triangle wears a material that names it.
 
 mod camera;
 mod generated;

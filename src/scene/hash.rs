@@ -4,6 +4,7 @@
 //! number or another folder leaves it alone. Names and warnings are not part of it.
 
 use super::light::{Light, LightColors};
+use super::texture::TextureRef;
 use super::{Scene, Sides};
 use sha2::{Digest, Sha256};
 
@@ -13,6 +14,7 @@ pub fn content_hash(scene: &Scene) -> String {
     hash_view(&mut hash, scene);
     hash_mesh(&mut hash, scene);
     hash_surfaces(&mut hash, scene);
+    hash_textures(&mut hash, scene);
     scene.lights.iter().for_each(|light| hash_light(&mut hash, light));
     hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect()
 }
@@ -55,6 +57,33 @@ fn hash_surfaces(hash: &mut Sha256, scene: &Scene) {
         floats(hash, &[material.ns]);
     }
     scene.triangle_materials.iter().for_each(|index| hash.update(index.to_le_bytes()));
+}
+
+/// Texels and how they are used; a scene without textures adds nothing. Smaller levels follow from
+/// the image itself.
+fn hash_textures(hash: &mut Sha256, scene: &Scene) {
+    for texture in &scene.textures {
+        let base = texture.base();
+        hash.update(b"texture");
+        hash.update(base.width().to_le_bytes());
+        hash.update(base.height().to_le_bytes());
+        for row in base.texels().chunks(base.width() as usize) {
+            let bytes: Vec<u8> = row.as_flattened().iter().flat_map(|c| c.to_le_bytes()).collect();
+            hash.update(bytes);
+        }
+    }
+    for (index, material) in scene.materials.iter().enumerate() {
+        let maps = [(b"kd_map", material.kd_map), (b"ks_map", material.ks_map)];
+        for (name, map) in maps {
+            let Some(TextureRef { texture, filter, wrap, scale, offset }) = map else { continue };
+            hash.update(name);
+            count(hash, index);
+            hash.update(texture.to_le_bytes());
+            hash.update([filter as u8, wrap as u8]);
+            floats(hash, &scale);
+            floats(hash, &offset);
+        }
+    }
 }
 
 fn hash_light(hash: &mut Sha256, light: &Light) {

@@ -2,6 +2,7 @@
 //!
 //! No evaluation lives here; see `shade`.
 
+use super::texture::TextureRef;
 use crate::color::LinearRgb;
 
 /// Blinn-Phong coefficients. Every value is finite and at least 0.
@@ -19,6 +20,11 @@ pub struct Material {
     pub ke: LinearRgb,
     /// n_s: specular exponent.
     pub ns: f64,
+    /// Multiplies `kd`, on triangles with texture coordinates. `ka` is not textured. `None` too
+    /// where no triangle wears the material: its textures are not read.
+    pub kd_map: Option<TextureRef>,
+    /// Multiplies `ks`, likewise.
+    pub ks_map: Option<TextureRef>,
 }
 
 impl Material {
@@ -31,6 +37,8 @@ impl Material {
             ks: [0.0; 3],
             ke: [0.0; 3],
             ns: 32.0,
+            kd_map: None,
+            ks_map: None,
         }
     }
 }

@@ -2,8 +2,8 @@
 //!
 //! Every statement is first read by a strict scan of our own, which knows lines and columns and
 //! what tobj gets wrong; tobj then reads the numbers from a normalised text, and both readings
-//! must agree. Nothing is dropped without a warning. Textures, curves, lines and points are not
-//! read.
+//! must agree. Nothing is dropped without a warning. Textures are only named here, for `resolve` to read;
+//! curves, lines and points are not read.
 //!
 //! Format: Wavefront, "Advanced Visualizer Manual", appendix B1 (OBJ), and Ramey, Rose and
 //! Tyerman, "MTL material format".
@@ -23,6 +23,7 @@ mod statement;
 use crate::scene::error::{Place, SceneError};
 use crate::scene::material::Material;
 use crate::scene::part::MeshPart;
+use crate::scene::texture::TextureRequests;
 use report::Report;
 use std::io;
 use std::path::Path;
@@ -36,6 +37,8 @@ pub struct ObjFile {
     /// One material per entry of `part.material_names`, with that name. Names that no library
     /// defines have the default coefficients.
     pub materials: Vec<Material>,
+    /// The textures that each material asks for; none was opened.
+    pub textures: Vec<TextureRequests>,
     /// What a user should know: sentences that begin with file and line. Bounded in number.
     pub warnings: Vec<String>,
 }
@@ -71,7 +74,7 @@ pub fn parse(
     let text = statement::decode(bytes, path, &mut report).map_err(|error| vec![error])?;
     let mut scan = scan::scan(&text, path, &mut report);
     drop(text);
-    let materials = materials::resolve(&scan, path, open, &mut report);
+    let (materials, textures) = materials::resolve(&scan, path, open, &mut report);
     if report.has_errors() {
         return Err(report.into_errors());
     }
@@ -83,7 +86,7 @@ pub fn parse(
     if report.has_errors() {
         return Err(report.into_errors());
     }
-    Ok(ObjFile { part, materials, warnings: report.into_warnings() })
+    Ok(ObjFile { part, materials, textures, warnings: report.into_warnings() })
 }
 
 /// The bytes of a file; folders are refused with the same error on every platform.

@@ -7,6 +7,7 @@ mod light;
 mod material;
 mod mesh;
 mod switches;
+mod texture;
 
 use super::Scene;
 use super::file::SceneFile;
@@ -31,16 +32,18 @@ pub(super) fn scene(
         .and_then(|image| image.background.as_ref())
         .map_or([0.0; 3], |rgb| color(rgb, "background", faults));
     let camera = camera::resolve(file, overrides, faults);
-    let mut materials = material::resolve(file, faults);
+    let mut materials = material::resolve(file, base, faults);
     let lights = file.lights.iter().filter_map(|light| light::resolve(light, faults)).collect();
     let naive_normals = switches.rules().naive_normals;
     let assembly = mesh::resolve(file, base, &mut materials, naive_normals, faults);
+    let textures = texture::resolve(file, &mut materials, &assembly, faults);
     Some(Scene {
         camera: camera?,
         background,
         mesh: assembly.mesh,
         objects: assembly.objects,
         materials: materials.list,
+        textures,
         triangle_materials: assembly.triangle_materials,
         lights,
         switches,

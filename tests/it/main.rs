@@ -46,6 +46,8 @@ mod stability;
 mod structured;
 // Golden scenes and builders that several modules use.
 mod support;
+// Textures: lookups, footprints, files of scenes and of material libraries.
+mod textures;
 // The list of visible triangles, and what lies between pixel centres.
 mod visible;
 // The rasterizer as graphics processors have it: exactly once, and where it may differ.

@@ -23,11 +23,15 @@ pub struct MaterialFile {
     pub ns: Option<Spanned<f64>>,
     /// How much the surface hides.
     pub opacity: Option<Spanned<f64>>,
-    /// Keys of textures that are written: `kd_map`, `ks_map`, `filter`, `wrap`.
-    pub texture_keys: Vec<Spanned<String>>,
+    /// File of the texture of `kd`.
+    pub kd_map: Option<Spanned<String>>,
+    /// File of the texture of `ks`.
+    pub ks_map: Option<Spanned<String>>,
+    /// How both are filtered.
+    pub filter: Option<Spanned<String>>,
+    /// What lies outside both.
+    pub wrap: Option<Spanned<String>>,
 }
-
-const TEXTURE_KEYS: [&str; 4] = ["kd_map", "ks_map", "filter", "wrap"];
 
 impl MaterialFile {
     pub(super) fn read(mut keys: Keys<'_, '_>, faults: &mut Faults<'_>) -> Option<Self> {
@@ -38,15 +42,14 @@ impl MaterialFile {
         let ke = keys.read("ke", numbers, faults);
         let ns = keys.read("ns", number, faults);
         let opacity = keys.read("opacity", number, faults);
-        for key in TEXTURE_KEYS {
-            keys.read(key, text, faults);
-        }
-        let mut texture_keys = keys.written();
-        texture_keys.retain(|key| TEXTURE_KEYS.contains(&key.get_ref().as_str()));
+        let kd_map = keys.read("kd_map", text, faults);
+        let ks_map = keys.read("ks_map", text, faults);
+        let filter = keys.read("filter", text, faults);
+        let wrap = keys.read("wrap", text, faults);
         if !keys.close(faults) {
             return None;
         }
-        Some(Self { name: name?, ka, kd, ks, ke, ns, opacity, texture_keys })
+        Some(Self { name: name?, ka, kd, ks, ke, ns, opacity, kd_map, ks_map, filter, wrap })
     }
 }
 

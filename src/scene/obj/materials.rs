@@ -8,6 +8,7 @@ use crate::scene::obj::mtl::{Library, read_library};
 use crate::scene::obj::report::{Report, quote};
 use crate::scene::obj::scanned::{Name, Scan};
 use crate::scene::obj::statement::{decode, without_comment};
+use crate::scene::texture::TextureRequests;
 use std::collections::HashSet;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -15,22 +16,25 @@ use std::path::{Path, PathBuf};
 /// Missing materials that a warning names; the others are counted.
 const MAX_NAMES: usize = 8;
 
-/// One material per name that the scan's faces use, in the same order.
+/// One material per name that the scan's faces use, and the textures that it asks for, in the same
+/// order.
 pub(super) fn resolve(
     scan: &Scan,
     file: &Path,
     open: &dyn Fn(&Path) -> io::Result<Vec<u8>>,
     report: &mut Report,
-) -> Vec<Material> {
+) -> (Vec<Material>, Vec<TextureRequests>) {
     let library = load_libraries(scan, file, open, report);
     let mut missing: Vec<&Name> = Vec::new();
     let mut materials = Vec::with_capacity(scan.materials.len());
+    let mut textures = Vec::with_capacity(scan.materials.len());
     for name in &scan.materials {
         let found = library.find(&name.text).cloned().unwrap_or_else(|| {
             missing.push(name);
             Material::default_named(&name.text)
         });
         materials.push(Material { name: name.text.clone(), ..found });
+        textures.push(library.textures(&name.text).cloned().unwrap_or_default());
     }
     if let Some(first) = missing.first() {
         let names: Vec<String> = missing.iter().take(MAX_NAMES).map(|n| quote(&n.text)).collect();
@@ -44,7 +48,7 @@ pub(super) fn resolve(
         );
         report.warn(file, first.line, &sentence);
     }
-    materials
+    (materials, textures)
 }
 
 /// Reads every library once, in file order.

@@ -1,13 +1,18 @@
 //! MTL libraries: the coefficients that the shading equation has.
 //!
-//! Textures, opacity, refraction and physically based extensions are left out with a warning
-//! by name. tobj is not used here: it panics on `Kd 0.8` and gives no lines.
+//! Of textures, those of Kd and Ks are asked for; other maps, opacity, refraction and physically
+//! based extensions are left out with a warning by name. tobj is not used here: it panics on
+//! `Kd 0.8` and gives no lines.
+
+mod map;
 
 use crate::color::LinearRgb;
 use crate::scene::error::SceneError;
 use crate::scene::material::Material;
 use crate::scene::obj::report::{Report, quote};
 use crate::scene::obj::statement::{Statements, without_comment};
+use crate::scene::texture::{TextureRequest, TextureRequests, Untextured};
+use map::read_map;
 use std::collections::HashMap;
 use std::path::Path;
 
@@ -18,6 +23,8 @@ const MAX_FORMAT_EXPONENT: f64 = 1000.0;
 #[derive(Debug, Default)]
 pub(super) struct Library {
     materials: Vec<Material>,
+    /// The textures that each asks for.
+    textures: Vec<TextureRequests>,
     by_name: HashMap<String, usize>,
     /// Under their names without what looks like a comment.
     by_bare_name: HashMap<String, usize>,
@@ -27,21 +34,31 @@ impl Library {
     /// The material that a `usemtl` means. Names may hold `#`, and a comment may follow them; so
     /// the name as written goes first, and comments are cut only where it is not found.
     pub(super) fn find(&self, name: &str) -> Option<&Material> {
+        self.position(name).map(|position| &self.materials[position])
+    }
+
+    /// The textures of the material that a `usemtl` means.
+    pub(super) fn textures(&self, name: &str) -> Option<&TextureRequests> {
+        self.position(name).map(|position| &self.textures[position])
+    }
+
+    fn position(&self, name: &str) -> Option<usize> {
         let bare = without_comment(name);
         let position = self
             .by_name
             .get(name)
             .or_else(|| self.by_name.get(bare))
             .or_else(|| self.by_bare_name.get(bare));
-        position.map(|&position| &self.materials[position])
+        position.copied()
     }
 
     /// Adds a material; true when one of the same name gives way.
-    fn insert(&mut self, material: Material) -> bool {
+    fn insert(&mut self, material: Material, textures: TextureRequests) -> bool {
         let position = self.materials.len();
         self.by_bare_name.insert(without_comment(&material.name).to_owned(), position);
         let replaced = self.by_name.insert(material.name.clone(), position).is_some();
         self.materials.push(material);
+        self.textures.push(textures);
         replaced
     }
 }
@@ -80,6 +97,8 @@ struct Draft {
     ks: Option<LinearRgb>,
     ke: Option<LinearRgb>,
     ns: Option<f64>,
+    kd_map: Option<TextureRequest>,
+    ks_map: Option<TextureRequest>,
     has_specular: bool,
     opacity: Option<f64>,
     transparency: Option<f64>,
@@ -95,6 +114,8 @@ impl Draft {
             ks: None,
             ke: None,
             ns: None,
+            kd_map: None,
+            ks_map: None,
             has_specular: true,
             opacity: None,
             transparency: None,
@@ -128,6 +149,8 @@ impl Draft {
                 }
                 self.ns = Some(exponent);
             }
+            "map_Kd" => self.kd_map = Some(read_map(walk, file, report)?),
+            "map_Ks" => self.ks_map = Some(read_map(walk, file, report)?),
             "illum" => self.read_model(walk, file, report)?,
             "d" => {
                 // `-halo` makes the opacity depend on the angle.
@@ -196,16 +219,27 @@ fn finish(draft: Option<Draft>, file: &Path, library: &mut Library, report: &mut
         report.warn(file, draft.line, sentence);
     }
     let default = Material::default_named(&draft.name);
-    let kd = draft.kd.unwrap_or(default.kd);
+    // A texture alone is the whole coefficient.
+    let unless_textured = |map: &Option<_>, default| if map.is_some() { [1.0; 3] } else { default };
+    let plain_kd = draft.kd.unwrap_or(default.kd);
+    let untextured = Untextured {
+        ka: draft.ka.unwrap_or(plain_kd),
+        kd: plain_kd,
+        ks: draft.ks.unwrap_or(default.ks),
+    };
+    let kd = draft.kd.unwrap_or(unless_textured(&draft.kd_map, default.kd));
+    let ks = draft.ks.unwrap_or(unless_textured(&draft.ks_map, default.ks));
     let material = Material {
         ka: draft.ka.unwrap_or(kd),
         kd,
-        ks: if draft.has_specular { draft.ks.unwrap_or(default.ks) } else { [0.0; 3] },
+        ks: if draft.has_specular { ks } else { [0.0; 3] },
         ke: draft.ke.unwrap_or(default.ke),
         ns: draft.ns.unwrap_or(default.ns),
-        name: default.name,
+        ..default
     };
-    if library.insert(material) {
+    let ks_map = draft.ks_map.filter(|_| draft.has_specular);
+    let textures = TextureRequests { kd: draft.kd_map, ks: ks_map, untextured };
+    if library.insert(material, textures) {
         let sentence = "materials are defined again; the last definition counts";
         report.warn(file, draft.line, sentence);
     }

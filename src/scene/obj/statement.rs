@@ -99,10 +99,15 @@ impl<'a> Statements<'a> {
 
     /// Everything after the keyword as one trimmed name, `#` included: names may hold it.
     pub(super) fn name(&self) -> String {
-        let keyword = self.keyword();
-        let raw = &self.text[keyword.start + keyword.text.len()..self.end];
-        if self.tokens.last().is_some_and(|token| token.line != keyword.line) {
-            let words: Vec<&str> = self.values().iter().map(|token| token.text).collect();
+        self.name_behind(0)
+    }
+
+    /// Everything after the keyword and the first `count` values, likewise.
+    pub(super) fn name_behind(&self, count: usize) -> String {
+        let Some(before) = self.tokens.get(count) else { return String::new() };
+        let raw = &self.text[before.start + before.text.len()..self.end];
+        if self.tokens.last().is_some_and(|token| token.line != before.line) {
+            let words: Vec<&str> = self.values()[count..].iter().map(|token| token.text).collect();
             return words.join(" ");
         }
         raw.trim_end_matches('\\').trim().to_owned()

@@ -25,7 +25,8 @@ impl ReadFile {
     pub(super) fn numbers(&mut self, materials: &mut Materials) -> &[u32] {
         let file = &self.file;
         self.numbers.get_or_insert_with(|| {
-            file.materials.iter().map(|material| materials.push(material.clone())).collect()
+            let textured = file.materials.iter().zip(&file.textures);
+            textured.map(|(own, textures)| materials.push(own.clone(), textures.clone())).collect()
         })
     }
 }

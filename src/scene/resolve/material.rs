@@ -1,16 +1,20 @@
 //! The materials: those of the scene file first, then those that mesh files bring along.
 
-use super::{at_least_zero, color};
+use super::{at_least_zero, color, texture};
 use crate::scene::file::text::Faults;
 use crate::scene::file::{MaterialFile, SceneFile};
 use crate::scene::material::Material;
+use crate::scene::texture::TextureRequests;
 use std::collections::HashMap;
+use std::path::Path;
 use toml::Spanned;
 
 /// The scene's materials as they grow.
 pub(super) struct Materials {
     /// In the order of their numbers.
     pub(super) list: Vec<Material>,
+    /// The textures that each asks for.
+    pub(super) textures: Vec<TextureRequests>,
     /// Those of the scene file by name.
     pub(super) named: HashMap<String, u32>,
     default: Option<u32>,
@@ -18,8 +22,9 @@ pub(super) struct Materials {
 
 impl Materials {
     /// Appends a material and gives its number.
-    pub(super) fn push(&mut self, material: Material) -> u32 {
+    pub(super) fn push(&mut self, material: Material, textures: TextureRequests) -> u32 {
         self.list.push(material);
+        self.textures.push(textures);
         self.list.len() as u32 - 1
     }
 
@@ -28,32 +33,30 @@ impl Materials {
         if let Some(number) = self.default {
             return number;
         }
-        let number = self.push(Material::default_named("default"));
+        let number = self.push(Material::default_named("default"), TextureRequests::default());
         *self.default.insert(number)
     }
 }
 
-pub(super) fn resolve(file: &SceneFile, faults: &mut Faults<'_>) -> Materials {
-    let mut materials = Materials { list: Vec::new(), named: HashMap::new(), default: None };
+pub(super) fn resolve(file: &SceneFile, base: &Path, faults: &mut Faults<'_>) -> Materials {
+    let mut materials =
+        Materials { list: Vec::new(), textures: Vec::new(), named: HashMap::new(), default: None };
     for written in &file.materials {
         let material = material(written, faults);
+        let textures = texture::requests(written, base, faults);
         let name = material.name.clone();
         if materials.named.contains_key(&name) {
             let message = format!("the name `{name}` is taken by another material");
             faults.at(&written.name.span(), message);
             continue;
         }
-        let number = materials.push(material);
+        let number = materials.push(material, textures);
         materials.named.insert(name, number);
     }
     materials
 }
 
 fn material(written: &MaterialFile, faults: &mut Faults<'_>) -> Material {
-    for key in &written.texture_keys {
-        let message = format!("textures (`{}`) are not simulated by this version", key.get_ref());
-        faults.at(&key.span(), message);
-    }
     if let Some(opacity) = &written.opacity {
         let number = *opacity.get_ref();
         if !(0.0..=1.0).contains(&number) {
@@ -67,10 +70,12 @@ fn material(written: &MaterialFile, faults: &mut Faults<'_>) -> Material {
     let mut rgb = |key: &str, value: &Option<Spanned<[f64; 3]>>, default| {
         value.as_ref().map_or(default, |rgb| color(rgb, key, faults))
     };
-    let kd = rgb("kd", &written.kd, default.kd);
+    // A texture alone is the whole coefficient.
+    let unless_textured = |map: &Option<_>, default| if map.is_some() { [1.0; 3] } else { default };
+    let kd = rgb("kd", &written.kd, unless_textured(&written.kd_map, default.kd));
     let ka = rgb("ka", &written.ka, kd);
-    let ks = rgb("ks", &written.ks, default.ks);
+    let ks = rgb("ks", &written.ks, unless_textured(&written.ks_map, default.ks));
     let ke = rgb("ke", &written.ke, default.ke);
     let ns = written.ns.as_ref().map_or(default.ns, |ns| at_least_zero(ns, "ns", faults));
-    Material { name: default.name, ka, kd, ks, ke, ns }
+    Material { ka, kd, ks, ke, ns, ..default }
 }

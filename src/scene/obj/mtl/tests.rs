@@ -32,6 +32,8 @@ fn coefficients_and_their_defaults() {
         ks: [0.5; 3],
         ke: [0.0, 0.0, 2.0],
         ns: 250.0,
+        kd_map: None,
+        ks_map: None,
     };
     assert_eq!(library.find("a"), Some(&expected));
     assert_eq!(library.find("b"), Some(&Material::default_named("b")));
@@ -74,13 +76,13 @@ fn opacity_is_told() {
 #[test]
 fn what_is_left_out_is_named() {
     let (_, warnings) = library(
-        "Kd 1 1 1\nnewmtl a\nmap_Kd -s 2 2 2 x.png\nTf 1 1 1\nKd spectral x.rfl\nmap_Kd y.png\n",
+        "Kd 1 1 1\nnewmtl a\nmap_Ka -s 2 2 2 x.png\nTf 1 1 1\nKd spectral x.rfl\nmap_Ka y.png\n",
     );
     assert_eq!(
         warnings,
         [
             "t.mtl:1: statements before the first `newmtl` are left out",
-            "t.mtl:3: `map_Kd` is not simulated by this version; left out (2 times; this is the \
+            "t.mtl:3: `map_Ka` is not simulated by this version; left out (2 times; this is the \
              first)",
             "t.mtl:4: `Tf` is not simulated by this version; left out",
             "t.mtl:5: `Kd spectral` is not simulated; left out",
