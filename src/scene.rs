@@ -18,6 +18,7 @@ mod resolve;
 pub mod shapes;
 pub mod switches;
 mod transform;
+mod vertex_normals;
 
 pub use load::{Overrides, SceneErrors};
 
@@ -47,6 +48,8 @@ pub struct Scene {
     pub triangle_materials: Vec<u32>,
     /// Lights, in file order.
     pub lights: Vec<Light>,
+    /// Name of each light: the scene file's, else its place there, such as `light[0]`.
+    pub light_names: Vec<String>,
     /// The switches of the shading equation.
     pub switches: Switches,
     /// Things a user should know that are no errors.
@@ -132,6 +135,7 @@ impl Scene {
             materials: vec![Material::default_named("default")],
             triangle_materials: vec![0; triangles.len()],
             lights: Vec::new(),
+            light_names: Vec::new(),
             switches: Switches::default(),
             warnings: Vec::new(),
         }

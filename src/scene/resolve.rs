@@ -4,9 +4,12 @@
 mod camera;
 mod library;
 mod light;
+mod light_choice;
+mod light_frame;
 mod material;
 mod mesh;
 mod switches;
+mod vertex_normals;
 
 use super::Scene;
 use super::file::SceneFile;
@@ -32,8 +35,10 @@ pub(super) fn scene(
         .map_or([0.0; 3], |rgb| color(rgb, "background", faults));
     let camera = camera::resolve(file, overrides, faults);
     let mut materials = material::resolve(file, faults);
-    let lights = file.lights.iter().filter_map(|light| light::resolve(light, faults)).collect();
-    let assembly = mesh::resolve(file, base, &mut materials, faults);
+    let transforms = mesh::transforms(file, faults);
+    let frames = light_frame::Frames::new(file, camera.as_ref(), &transforms, faults);
+    let (lights, light_names) = light_choice::resolve(file, &frames, overrides, faults);
+    let assembly = mesh::resolve(file, base, transforms, &mut materials, faults);
     Some(Scene {
         camera: camera?,
         background,
@@ -42,6 +47,7 @@ pub(super) fn scene(
         materials: materials.list,
         triangle_materials: assembly.triangle_materials,
         lights,
+        light_names,
         switches,
         warnings: Vec::new(),
     })

@@ -53,6 +53,11 @@ impl Transform {
         [x + tx, y + ty, z + tz]
     }
 
+    /// A direction in world space, not unit.
+    pub(crate) fn direction(&self, v: [f64; 3]) -> [f64; 3] {
+        apply(self.linear, v)
+    }
+
     /// A unit normal in world space; `None` where the transform leaves none.
     pub(crate) fn normal(&self, n: [f64; 3]) -> Option<[f64; 3]> {
         unit(apply(self.normals, n))

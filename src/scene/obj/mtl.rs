@@ -81,6 +81,7 @@ struct Draft {
     ke: Option<LinearRgb>,
     ns: Option<f64>,
     has_specular: bool,
+    unlit: bool,
     opacity: Option<f64>,
     transparency: Option<f64>,
 }
@@ -96,6 +97,7 @@ impl Draft {
             ke: None,
             ns: None,
             has_specular: true,
+            unlit: false,
             opacity: None,
             transparency: None,
         }
@@ -156,19 +158,25 @@ impl Draft {
         let line = walk.keyword().line;
         let token = walk.values().first().copied().unwrap_or(walk.keyword());
         self.has_specular = true;
+        self.unlit = false;
         match token.text.parse::<u8>() {
             Ok(0) => {
-                let sentence = "`illum 0` (unlit) is not simulated; the surface is lit, without \
-                                specular reflection";
-                report.warn(file, line, sentence);
+                self.unlit = true;
                 self.has_specular = false;
             }
             Ok(1) => self.has_specular = false,
             Ok(2) => {}
             Ok(model @ 3..=10) => {
+                let effect = match model {
+                    3 | 8 => "the reflection of other surfaces",
+                    4 | 9 => "the reflection and the transparency of glass",
+                    5 => "Fresnel reflection",
+                    6 => "refraction",
+                    7 => "refraction and Fresnel reflection",
+                    _ => "the shadows on invisible surfaces",
+                };
                 let sentence = format!(
-                    "the reflections and refractions of `illum {model}` are not simulated; it is \
-                     shaded as `illum 2`"
+                    "of `illum {model}`, {effect} is not simulated; it is shaded as `illum 2`"
                 );
                 report.warn(file, line, &sentence);
             }
@@ -204,6 +212,7 @@ fn finish(draft: Option<Draft>, file: &Path, library: &mut Library, report: &mut
         ke: draft.ke.unwrap_or(default.ke),
         ns: draft.ns.unwrap_or(default.ns),
         name: default.name,
+        unlit: draft.unlit,
     };
     if library.insert(material) {
         let sentence = "materials are defined again; the last definition counts";

@@ -1,5 +1,6 @@
 //! One light: its type, the keys that the type has a use for, and their ranges.
 
+use super::light_frame::{Frame, Frames};
 use super::{at_least_zero, color};
 use crate::scene::camera::unit;
 use crate::scene::file::text::Faults;
@@ -36,7 +37,14 @@ const USES: [(&str, &[&str]); 5] = [
     ("hemisphere", &["direction", "top", "bottom"]),
 ];
 
-pub(super) fn resolve(light: &LightFile, faults: &mut Faults<'_>) -> Option<Light> {
+/// What every light may have.
+const ALWAYS: [&str; 2] = ["type", "name"];
+
+pub(super) fn resolve(
+    light: &LightFile,
+    frames: &Frames<'_>,
+    faults: &mut Faults<'_>,
+) -> Option<Light> {
     let before = faults.errors.len();
     let kind = light.kind.get_ref().as_str();
     let Some((_, uses)) = USES.iter().find(|(name, _)| *name == kind) else {
@@ -52,7 +60,8 @@ pub(super) fn resolve(light: &LightFile, faults: &mut Faults<'_>) -> Option<Ligh
     };
     for key in &light.written {
         let name = key.get_ref().as_str();
-        if name != "type" && !uses.contains(&name) {
+        let has_place = kind != "ambient";
+        if !ALWAYS.contains(&name) && !uses.contains(&name) && !(name == "parent" && has_place) {
             let message = format!("the type `{kind}` has no use for `{name}`");
             let help = format!("it has for: {}", uses.join(", "));
             faults.at_with_help(&key.span(), message, help);
@@ -61,12 +70,13 @@ pub(super) fn resolve(light: &LightFile, faults: &mut Faults<'_>) -> Option<Ligh
     if let Some(shadows) = light.shadows.as_ref().filter(|shadows| *shadows.get_ref()) {
         faults.at(&shadows.span(), "shadows are not simulated by this version");
     }
+    let frame = frames.of(light, faults)?;
     let made = match kind {
         "ambient" => required(&light.ambient, "ambient", light, faults)
             .map(|rgb| Light::Ambient(AmbientLight { ambient: color(rgb, "ambient", faults) })),
-        "directional" => directional(light, faults).map(Light::Directional),
-        "point" => point(light, faults).map(Light::Point),
-        "spot" => spot(light, faults).map(Light::Spot),
+        "directional" => directional(light, &frame, faults).map(Light::Directional),
+        "point" => point(light, &frame, faults).map(Light::Point),
+        "spot" => spot(light, &frame, faults).map(Light::Spot),
         _ => {
             faults.at(&light.kind.span(), "hemisphere lights are not simulated by this version");
             None
@@ -75,26 +85,31 @@ pub(super) fn resolve(light: &LightFile, faults: &mut Faults<'_>) -> Option<Ligh
     made.filter(|_| faults.errors.len() == before)
 }
 
-fn directional(light: &LightFile, faults: &mut Faults<'_>) -> Option<DirectionalLight> {
+fn directional(
+    light: &LightFile,
+    frame: &Frame,
+    faults: &mut Faults<'_>,
+) -> Option<DirectionalLight> {
     let colors = colors(light, faults);
     let aim = required(&light.aim, "aim", light, faults)?;
-    Some(DirectionalLight { aim: direction(aim, *aim.get_ref(), "aim", faults)?, colors })
+    let way = frame.direction(*aim.get_ref());
+    Some(DirectionalLight { aim: direction(aim, way, "aim", faults)?, colors })
 }
 
-fn point(light: &LightFile, faults: &mut Faults<'_>) -> Option<PointLight> {
+fn point(light: &LightFile, frame: &Frame, faults: &mut Faults<'_>) -> Option<PointLight> {
     let colors = colors(light, faults);
     let attenuation = attenuation(light, faults);
-    let position = *required(&light.position, "position", light, faults)?.get_ref();
+    let position = position(light, frame, faults)?;
     Some(PointLight { position, attenuation, colors })
 }
 
-fn spot(light: &LightFile, faults: &mut Faults<'_>) -> Option<SpotLight> {
+fn spot(light: &LightFile, frame: &Frame, faults: &mut Faults<'_>) -> Option<SpotLight> {
     let colors = colors(light, faults);
     let attenuation = attenuation(light, faults);
     let exponent =
         light.exponent.as_ref().map_or(0.0, |value| at_least_zero(value, "exponent", faults));
-    let position = required(&light.position, "position", light, faults).map(|p| *p.get_ref());
-    let aim = spot_aim(light, position, faults);
+    let position = position(light, frame, faults);
+    let aim = spot_aim(light, frame, position, faults);
     let cutoff = required(&light.cutoff_deg, "cutoff_deg", light, faults)?;
     let cutoff_deg = *cutoff.get_ref();
     if !(cutoff_deg > 0.0 && cutoff_deg <= 180.0) {
@@ -111,6 +126,7 @@ fn spot(light: &LightFile, faults: &mut Faults<'_>) -> Option<SpotLight> {
 /// `aim`, or the direction from the light to `target`.
 fn spot_aim(
     light: &LightFile,
+    frame: &Frame,
     position: Option<[f64; 3]>,
     faults: &mut Faults<'_>,
 ) -> Option<[f64; 3]> {
@@ -124,13 +140,23 @@ fn spot_aim(
             faults.at(&light.span, "a `spot` light lacks `target` or `aim`");
             None
         }
-        (None, Some(aim)) => direction(aim, *aim.get_ref(), "aim", faults),
+        (None, Some(aim)) => direction(aim, frame.direction(*aim.get_ref()), "aim", faults),
         (Some(target), None) => {
-            let (to, from) = (target.get_ref(), position?);
+            let (to, from) = (frame.position(*target.get_ref()), position?);
             let way = std::array::from_fn(|k| to[k] - from[k]);
             direction(target, way, "target − position", faults)
         }
     }
+}
+
+/// `position` in world space.
+fn position(light: &LightFile, frame: &Frame, faults: &mut Faults<'_>) -> Option<[f64; 3]> {
+    let written = required(&light.position, "position", light, faults)?;
+    let position = frame.position(*written.get_ref());
+    if !position.iter().all(|c| c.is_finite()) {
+        faults.at(&written.span(), "`position` is too far away for 64-bit numbers");
+    }
+    Some(position)
 }
 
 /// The unit vector along `way`.
