@@ -4,11 +4,11 @@
 //!
 //! # Presets
 //!
-//! Starting points by the advice of Curless, "Shading": small ka (about 0.1 of the colour), ka + kd
-//! + ks below 1 in every channel; a metal has a large exponent (Angel: 100 to 200), little diffuse
-//! and much specular reflection, both in its colour; a plastic has a medium exponent, medium diffuse
-//! reflection in its colour and medium specular reflection in white; a planet has no highlight. The
-//! numbers are ours.
+//! Starting points by the advice of Curless, "Shading": a small ka (about 0.1 of the colour), and
+//! the sum of ka, kd and ks below 1 in every channel. A metal has a large exponent (Angel: 100 to
+//! 200), little diffuse and much specular reflection, both in its colour; a plastic has a medium
+//! exponent, medium diffuse reflection in its colour and medium specular reflection in white; a
+//! planet has no highlight. The numbers are ours.
 //!
 //! | word | ka | kd | ks | ns | why |
 //! |---|---|---|---|---|---|

@@ -60,8 +60,9 @@ pub(super) fn resolve(
     };
     for key in &light.written {
         let name = key.get_ref().as_str();
-        let has_place = kind != "ambient";
-        if !ALWAYS.contains(&name) && !uses.contains(&name) && !(name == "parent" && has_place) {
+        // Every light but the ambient one has a point or a direction that a frame can move.
+        let is_frame = name == "parent" && kind != "ambient";
+        if !(is_frame || ALWAYS.contains(&name) || uses.contains(&name)) {
             let message = format!("the type `{kind}` has no use for `{name}`");
             let help = format!("it has for: {}", uses.join(", "));
             faults.at_with_help(&key.span(), message, help);
