@@ -169,14 +169,15 @@ impl Draft {
             Ok(model @ 3..=10) => {
                 let effect = match model {
                     3 | 8 => "the reflection of other surfaces",
-                    4 | 9 => "the reflection and the transparency of glass",
+                    4 | 9 => "reflecting, transparent glass",
                     5 => "Fresnel reflection",
                     6 => "refraction",
                     7 => "refraction and Fresnel reflection",
-                    _ => "the shadows on invisible surfaces",
+                    _ => "shadows on invisible surfaces",
                 };
                 let sentence = format!(
-                    "of `illum {model}`, {effect} is not simulated; it is shaded as `illum 2`"
+                    "`illum {model}` asks for {effect}, which is not simulated; the surface is \
+                     shaded as `illum 2`"
                 );
                 report.warn(file, line, &sentence);
             }
