@@ -3,6 +3,7 @@
 //! Positions are f32 triples, rounded once; corner normals are unit f64 vectors. The mesh knows
 //! nothing of materials, lights or the camera, and no predicate lives here.
 
+use crate::color::LinearRgb;
 use std::num::NonZeroU32;
 
 /// A triangle of the scene: 0-based in file order over all meshes.
@@ -57,6 +58,9 @@ pub struct TriangleMesh {
     pub uvs: Vec<[f64; 2]>,
     /// Per triangle, indices into `uvs` or [`NO_ATTRIBUTE`]. Empty when no triangle has any.
     pub corner_uvs: Vec<[u32; 3]>,
+    /// Colours of the positions, one each: linear RGB, finite, at least 0. Empty when no mesh of
+    /// the scene has any; beside a mesh that has, the others are white.
+    pub colors: Vec<LinearRgb>,
 }
 
 impl TriangleMesh {
@@ -96,6 +100,14 @@ impl TriangleMesh {
             return None;
         }
         Some(indices.map(|index| self.uvs[index as usize]))
+    }
+
+    /// The colours of the three corners, or `None` when the mesh has no colours.
+    pub fn colors_of(&self, id: TriangleId) -> Option<[LinearRgb; 3]> {
+        if self.colors.is_empty() {
+            return None;
+        }
+        Some(self.corners[id.index()].map(|corner| self.colors[corner as usize]))
     }
 
     /// Unit normal of the face by winding, `(v1 − v0) × (v2 − v0)` in f64, never flipped; the zero

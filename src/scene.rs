@@ -19,6 +19,7 @@ pub mod shapes;
 pub mod switches;
 pub mod texture;
 mod transform;
+mod vertex_normals;
 
 pub use load::{Overrides, SceneErrors};
 
@@ -51,6 +52,8 @@ pub struct Scene {
     pub triangle_materials: Vec<u32>,
     /// Lights, in file order.
     pub lights: Vec<Light>,
+    /// Name of each light: the scene file's, else its place there, such as `light[0]`.
+    pub light_names: Vec<String>,
     /// The switches of the shading equation.
     pub switches: Switches,
     /// Things a user should know that are no errors.
@@ -153,6 +156,7 @@ impl Scene {
             textures: Vec::new(),
             triangle_materials: vec![0; triangles.len()],
             lights: Vec::new(),
+            light_names: Vec::new(),
             switches: Switches::default(),
             warnings: Vec::new(),
         }

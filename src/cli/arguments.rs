@@ -60,6 +60,12 @@ pub(super) struct RenderArguments {
     /// Render only columns X0..X1 and rows Y0..Y1 (X1 and Y1 excluded)
     #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = parse_crop)]
     pub(super) crop: Option<[u32; 4]>,
+    /// Keep only this light, by its name or its number from 0 on; may be repeated
+    #[arg(long, value_name = "NAME|INDEX")]
+    pub(super) light: Vec<String>,
+    /// Keep only the ambient part of every light
+    #[arg(long)]
+    pub(super) ambient_only: bool,
     /// List the visible triangles: id, mesh, file and line, number of pixels, first pixel
     #[arg(long, value_name = "LIST.csv")]
     pub(super) visible: Option<PathBuf>,

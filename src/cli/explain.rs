@@ -5,18 +5,33 @@ use super::failure::Failure;
 use super::{OK, output};
 use serde_json::json;
 use truecast::render::{Accuracy, describe};
+use truecast::scene::material::Material;
 use truecast::scene::{Overrides, Scene};
 use truecast::shade;
 
 pub(super) fn run(arguments: &ExplainArguments) -> Result<u8, Failure> {
     let scene = Scene::load(&arguments.scene, &Overrides::default())?;
     output::print_warnings(&scene.warnings);
+    output::print_warnings(&advice(&scene));
     if arguments.json {
         output::print_json(&document(arguments, &scene));
     } else {
         output::print(&text(arguments, &scene));
     }
     Ok(OK)
+}
+
+/// Materials against the usual advice. Said here only: well-known ones go against it on purpose.
+fn advice(scene: &Scene) -> Vec<String> {
+    let sentence = |material: &Material| {
+        let excess = material.excess()?;
+        Some(format!(
+            "material `{}`: kd + ks is {excess:.3} in a channel; the usual advice is ka + kd + ks \
+             below 1, and radiance may exceed 1 here",
+            material.name
+        ))
+    };
+    scene.materials.iter().filter_map(sentence).collect()
 }
 
 fn text(arguments: &ExplainArguments, scene: &Scene) -> String {
@@ -45,6 +60,13 @@ fn text(arguments: &ExplainArguments, scene: &Scene) -> String {
         scene.materials.len(),
         scene.lights.len()
     );
+    for (index, material) in scene.materials.iter().enumerate() {
+        let Material { name, ka, kd, ks, ke, ns, unlit, .. } = material;
+        let unlit = if *unlit { ", unlit" } else { "" };
+        text += &format!(
+            "material {index} `{name}`: ka {ka:?}, kd {kd:?}, ks {ks:?}, ke {ke:?}, ns {ns}{unlit}\n"
+        );
+    }
     text += "\neffect                on   called for by\n";
     for call in shade::explain(scene) {
         let by = match call.called_by.as_slice() {
@@ -83,6 +105,17 @@ fn document(arguments: &ExplainArguments, scene: &Scene) -> serde_json::Value {
             "first_triangle": object.triangles.start,
             "triangles": object.triangles.len(),
         })).collect::<Vec<_>>(),
+        "materials": scene.materials.iter().map(|material| json!({
+            "name": material.name,
+            "ka": material.ka,
+            "kd": material.kd,
+            "ks": material.ks,
+            "ke": material.ke,
+            "ns": material.ns,
+            "unlit": material.unlit,
+        })).collect::<Vec<_>>(),
+        "lights": scene.light_names,
+        "advice": advice(scene),
         "effects": effects,
         "warnings": scene.warnings,
     })

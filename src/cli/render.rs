@@ -82,7 +82,11 @@ pub(super) fn run(arguments: &RenderArguments, writing: &Writing) -> Result<u8, 
 }
 
 fn load(arguments: &RenderArguments) -> Result<Scene, Failure> {
-    let overrides = Overrides { resolution: arguments.size };
+    let overrides = Overrides {
+        resolution: arguments.size,
+        only_lights: arguments.light.clone(),
+        ambient_only: arguments.ambient_only,
+    };
     Ok(match &arguments.scene {
         Some(path) => Scene::load(path, &overrides)?,
         None => {

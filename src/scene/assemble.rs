@@ -5,12 +5,16 @@
 use super::part::MeshPart;
 use super::transform::Transform;
 use super::{Object, Shading, Sides, Source};
+use crate::color::LinearRgb;
 use crate::mesh::{NO_ATTRIBUTE, TriangleId, TriangleMesh};
 use std::ops::Range;
 
 /// Largest magnitude of a position: differences and the predicates' products of such numbers stay
 /// finite.
 const LARGEST_POSITION: f64 = (1_u128 << 126) as f64;
+
+/// Colour of the vertices of a mesh without colours.
+const WHITE: LinearRgb = [1.0; 3];
 
 /// The scene's triangles as they grow.
 #[derive(Debug, Default)]
@@ -66,6 +70,7 @@ impl Assembly {
         let mirrored = piece.transform.orientation < 0;
         self.append_normals(part, &piece.transform, piece.naive_normals);
         self.append_uvs(part, mirrored);
+        self.append_colors(part);
         let offset = self.mesh.positions.len() as u32;
         self.mesh.positions.extend(positions);
         self.mesh.corners.extend(
@@ -92,7 +97,8 @@ impl Assembly {
         self.mesh.corner_normals.resize(self.mesh.corners.len(), [NO_ATTRIBUTE; 3]);
         let mut indices = Vec::with_capacity(part.normals.len());
         for &normal in &part.normals {
-            let moved = if naive { transform.direction(normal) } else { transform.normal(normal) };
+            let moved =
+                if naive { transform.naive_normal(normal) } else { transform.normal(normal) };
             indices.push(match moved {
                 Some(unit) => {
                     self.mesh.normals.push(unit);
@@ -122,6 +128,14 @@ impl Assembly {
         }));
     }
 
+    /// Colours of positions. Called while `positions` still ends before this part.
+    fn append_colors(&mut self, part: &MeshPart) {
+        if !part.colors.is_empty() {
+            self.mesh.colors.resize(self.mesh.positions.len(), WHITE);
+            self.mesh.colors.extend(&part.colors);
+        }
+    }
+
     /// Completes the attribute lists of the triangles after the last part that has any.
     pub(crate) fn finish(mut self) -> Self {
         let count = self.mesh.corners.len();
@@ -129,6 +143,9 @@ impl Assembly {
             if !list.is_empty() {
                 list.resize(count, [NO_ATTRIBUTE; 3]);
             }
+        }
+        if !self.mesh.colors.is_empty() {
+            self.mesh.colors.resize(self.mesh.positions.len(), WHITE);
         }
         self
     }

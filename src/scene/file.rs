@@ -46,11 +46,13 @@
 //! | `camera.gl.view` | must | view matrix, 4×4, for column vectors |
 //! | `camera.gl.projection` | must | projection matrix, 4×4, NDC −1…1, y upwards |
 //! | `material.name` | must | name by which meshes refer to it; no name twice |
-//! | `material.ka` | `kd` | RGB: reflection of ambient light |
-//! | `material.kd` | `[0.8, 0.8, 0.8]`, with `kd_map` `[1, 1, 1]` | RGB: diffuse reflection |
-//! | `material.ks` | `[0, 0, 0]`, with `ks_map` `[1, 1, 1]` | RGB: specular reflection |
+//! | `material.preset` | none | `metal`, `plastic`, `planet`, `clay`, `red-plastic`: `ka`, `kd`, `ks`, `ns` where they are not written; numbers in [`super::material`] |
+//! | `material.ka` | the preset's, else `kd` | RGB: reflection of ambient light |
+//! | `material.kd` | the preset's, else `[0.8, 0.8, 0.8]`, with `kd_map` `[1, 1, 1]` | RGB: diffuse reflection |
+//! | `material.ks` | the preset's, else `[0, 0, 0]`, with `ks_map` `[1, 1, 1]` | RGB: specular reflection |
 //! | `material.ke` | `[0, 0, 0]` | RGB: emission |
 //! | `material.ns` | 32 | specular exponent, at least 0 |
+//! | `material.unlit` | false | true: radiance is `kd`, times its map and vertex colour, whatever the lights |
 //! | `material.opacity` | 1 | 0…1; only 1 is simulated |
 //! | `material.kd_map` | none | a PNG or JPEG file that multiplies `kd` where a triangle has texture coordinates; `ka` stays as it is |
 //! | `material.ks_map` | none | likewise for `ks` |
@@ -58,14 +60,19 @@
 //! | `material.wrap` | `"repeat"` | of both maps outside the uv square: `"repeat"` or `"clamp"` |
 //! | `mesh.file` | this or `shape` | an OBJ file |
 //! | `mesh.shape` | this or `file` | `{ NAME = { … } }`: a generated mesh, see [`shape`] |
+//! | `mesh.name` | none | name by which a light's `parent` refers to it; no name twice |
 //! | `mesh.material` | the file's own, else the default one | name of a material |
 //! | `mesh.shading` | `"phong"` | `phong`: normals are interpolated; `gouraud`: colours lit at the corners are; `flat`: one normal per triangle; `vertex-color`: the vertices' colours, unlit |
 //! | `mesh.sides` | `"single"` | `"double"`: the shading normal turns towards the eye |
+//! | `mesh.vertex_normals` | `"file"` | `"file"`: those of the OBJ file, else unweighted means by smoothing group (`s`; without any all is one group), those of the exact surface for shapes; `"uniform"`, `"area"`, `"angle"`: made anew in object space, each polygon's normal weighted by 1, its area, or its angle at the vertex |
+//! | `mesh.crease_deg` | none | 0…180: a corner's normal is made of the faces whose normals differ from its own face's by at most this, instead of by smoothing group; `vertex_normals` is `"uniform"` then, unless `"area"` or `"angle"` |
 //! | `mesh.scale` | 1 | factor, or a vector of them; applied first |
 //! | `mesh.rotate_deg` | `[0, 0, 0]` | right-handed angles about x, then y, then z |
 //! | `mesh.translate` | `[0, 0, 0]` | displacement; applied last |
 //! | `mesh.matrix` | none | the whole transform, 4×4, last row 0 0 0 1; instead of the other three |
 //! | `light.type` | must | `ambient`, `directional`, `point`, `spot` or `hemisphere` |
+//! | `light.name` | none | name by which `render --light` refers to it; no name twice |
+//! | `light.parent` | `"world"` | frame of `position`, `target`, `aim`, `direction`: `"world"`; `"camera"` (origin at the eye, x right, y up, looking along −z); `"mesh:NAME"` (object space of the mesh of that name: the light follows its transform) |
 //! | `light.position` | must | point, spot: where it is |
 //! | `light.target` | this or `aim` | spot: the point that it aims at |
 //! | `light.aim` | must | directional, spot: the way the light travels |
@@ -152,6 +159,8 @@ pub struct SceneFile {
     pub materials_lack: bool,
     /// `[[mesh]]`, in order.
     pub meshes: Vec<MeshFile>,
+    /// Whether a `[[mesh]]` had faults and is not in `meshes`.
+    pub meshes_lack: bool,
     /// `[[light]]`, in order.
     pub lights: Vec<LightFile>,
     /// `[switches]`, those that are set.
@@ -202,13 +211,25 @@ impl SceneFile {
         let materials =
             tables.into_iter().filter_map(|keys| MaterialFile::read(keys, faults)).collect();
         let materials_lack = faults.errors.len() > before;
+        let before = faults.errors.len();
         let tables = keys.tables("mesh", "[[mesh]]", faults);
         let meshes = tables.into_iter().filter_map(|keys| MeshFile::read(keys, faults)).collect();
+        let meshes_lack = faults.errors.len() > before;
         let tables = keys.tables("light", "[[light]]", faults);
         let lights = tables.into_iter().filter_map(|keys| LightFile::read(keys, faults)).collect();
         let switches = keys.table("switches", "[switches]", faults);
         let switches = switches.map(|keys| switches::read(keys, faults)).unwrap_or_default();
         keys.close(faults);
-        Self { dialect, image, camera, materials, materials_lack, meshes, lights, switches }
+        Self {
+            dialect,
+            image,
+            camera,
+            materials,
+            materials_lack,
+            meshes,
+            meshes_lack,
+            lights,
+            switches,
+        }
     }
 }

@@ -37,6 +37,11 @@ fn hash_mesh(hash: &mut Sha256, scene: &Scene) {
     }
     mesh.normals.iter().for_each(|normal| floats(hash, normal));
     mesh.uvs.iter().for_each(|uv| floats(hash, uv));
+    // Only where there are colours, so that the digests of scenes without stay.
+    if !mesh.colors.is_empty() {
+        hash.update(b"colors");
+        mesh.colors.iter().for_each(|color| floats(hash, color));
+    }
     for list in [&mesh.corners, &mesh.corner_normals, &mesh.corner_uvs] {
         count(hash, list.len());
         list.iter().flatten().for_each(|index| hash.update(index.to_le_bytes()));
@@ -55,6 +60,10 @@ fn hash_surfaces(hash: &mut Sha256, scene: &Scene) {
             floats(hash, &color);
         }
         floats(hash, &[material.ns]);
+        // Only where it says something, so that the digests of lit scenes stay.
+        if material.unlit {
+            hash.update(b"unlit");
+        }
     }
     scene.triangle_materials.iter().for_each(|index| hash.update(index.to_le_bytes()));
 }

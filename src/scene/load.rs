@@ -15,6 +15,10 @@ pub struct Overrides {
     /// Another size of the frame. A look-at or OpenGL camera fills it; the numbers of the other two
     /// forms belong to their size, and another one is refused.
     pub resolution: Option<Resolution>,
+    /// Names of lights, or their numbers from 0 on in file order: only these stay. Empty: all do.
+    pub only_lights: Vec<String>,
+    /// Whether all lights keep only their ambient parts.
+    pub ambient_only: bool,
 }
 
 /// All faults of a scene and its meshes; at least one. Displayed one a line, advice below.

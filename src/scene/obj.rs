@@ -9,6 +9,7 @@
 //! Tyerman, "MTL material format".
 
 mod assembly;
+mod color;
 mod corner;
 mod indexing;
 mod materials;

@@ -4,10 +4,13 @@
 mod camera;
 mod library;
 mod light;
+mod light_choice;
+mod light_frame;
 mod material;
 mod mesh;
 mod switches;
 mod texture;
+mod vertex_normals;
 
 use super::Scene;
 use super::file::SceneFile;
@@ -33,9 +36,11 @@ pub(super) fn scene(
         .map_or([0.0; 3], |rgb| color(rgb, "background", faults));
     let camera = camera::resolve(file, overrides, faults);
     let mut materials = material::resolve(file, base, faults);
-    let lights = file.lights.iter().filter_map(|light| light::resolve(light, faults)).collect();
+    let transforms = mesh::transforms(file, faults);
+    let frames = light_frame::Frames::new(file, camera.as_ref(), &transforms, faults);
+    let (lights, light_names) = light_choice::resolve(file, &frames, overrides, faults);
     let naive_normals = switches.rules().naive_normals;
-    let assembly = mesh::resolve(file, base, &mut materials, naive_normals, faults);
+    let assembly = mesh::resolve(file, base, transforms, &mut materials, naive_normals, faults);
     let textures = texture::resolve(file, &mut materials, &assembly, faults);
     Some(Scene {
         camera: camera?,
@@ -46,6 +51,7 @@ pub(super) fn scene(
         textures,
         triangle_materials: assembly.triangle_materials,
         lights,
+        light_names,
         switches,
         warnings: Vec::new(),
     })

@@ -53,9 +53,14 @@ impl Transform {
         [x + tx, y + ty, z + tz]
     }
 
-    /// A direction in world space, made unit; `None` where the transform leaves none.
-    pub(crate) fn direction(&self, d: [f64; 3]) -> Option<[f64; 3]> {
-        unit(apply(scaled_to_one(self.linear), d))
+    /// A direction in world space, not unit.
+    pub(crate) fn direction(&self, v: [f64; 3]) -> [f64; 3] {
+        apply(self.linear, v)
+    }
+
+    /// A normal transformed like a direction, made unit; `None` where the transform leaves none.
+    pub(crate) fn naive_normal(&self, n: [f64; 3]) -> Option<[f64; 3]> {
+        unit(apply(scaled_to_one(self.linear), n))
     }
 
     /// A unit normal in world space; `None` where the transform leaves none.

@@ -21,7 +21,7 @@ const EVERYTHING: &[&str] = &["*"];
 const ALLOWED: &[Allowed] = &[
     ("pixel", &[]),
     ("color", &[]),
-    ("mesh", &[]),
+    ("mesh", &["color"]),
     ("mutant", &[]),
     ("scene", &["pixel", "color", "mesh"]),
     ("visibility", &["pixel", "mesh"]),

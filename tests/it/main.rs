@@ -20,8 +20,14 @@ mod foreign;
 mod foreign_cameras;
 // Who may import whom: the house's floors as a table.
 mod layers;
+// One light at a time, or only the ambient parts.
+mod light_choice;
+// Lights written in the frame of the camera or of a mesh.
+mod light_frames;
 // Every row of the lighting systems by its name.
 mod lighting;
+// Presets of materials, and surfaces that no light touches.
+mod material_presets;
 // OBJ and MTL, one test per misreading.
 mod obj;
 // The rasterizer on golden and hard scenes: tile sizes, windows, threads.
@@ -48,6 +54,10 @@ mod structured;
 mod support;
 // Textures: lookups, footprints, files of scenes and of material libraries.
 mod textures;
+// Colours of vertices, from the OBJ text to the mesh.
+mod vertex_colors;
+// Vertex normals by weight and crease, from a scene file.
+mod vertex_normals;
 // The list of visible triangles, and what lies between pixel centres.
 mod visible;
 // The rasterizer as graphics processors have it: exactly once, and where it may differ.

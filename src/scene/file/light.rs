@@ -8,6 +8,10 @@ use toml::Spanned;
 /// `[[light]]`: the keys of all types; which type has a use for which is decided later.
 #[derive(Clone, Debug)]
 pub struct LightFile {
+    /// Name by which programs refer to it.
+    pub name: Option<Spanned<String>>,
+    /// The frame of its points and directions.
+    pub parent: Option<Spanned<String>>,
     /// Its type.
     pub kind: Spanned<String>,
     /// Where it is.
@@ -49,6 +53,8 @@ impl LightFile {
         let span = keys.header.clone();
         let written = keys.written();
         let kind = keys.require("type", text, faults);
+        let name = keys.read("name", text, faults);
+        let parent = keys.read("parent", text, faults);
         let position = keys.read("position", numbers, faults);
         let target = keys.read("target", numbers, faults);
         let aim = keys.read("aim", numbers, faults);
@@ -67,6 +73,8 @@ impl LightFile {
             return None;
         }
         Some(Self {
+            name,
+            parent,
             kind: kind?,
             position,
             target,

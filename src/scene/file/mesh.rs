@@ -3,7 +3,7 @@
 use super::generated::GeneratedFile;
 use super::keys::Keys;
 use super::text::{Faults, Span};
-use super::values::{matrix, number, numbers, one_or_three, text};
+use super::values::{boolean, matrix, number, numbers, one_or_three, text};
 use toml::Spanned;
 
 /// `[[material]]`.
@@ -11,6 +11,8 @@ use toml::Spanned;
 pub struct MaterialFile {
     /// Its name.
     pub name: Spanned<String>,
+    /// Name of the coefficients that those written replace.
+    pub preset: Option<Spanned<String>>,
     /// Reflection of ambient light.
     pub ka: Option<Spanned<[f64; 3]>>,
     /// Diffuse reflection.
@@ -21,6 +23,8 @@ pub struct MaterialFile {
     pub ke: Option<Spanned<[f64; 3]>>,
     /// Specular exponent.
     pub ns: Option<Spanned<f64>>,
+    /// Whether lights leave it alone.
+    pub unlit: Option<Spanned<bool>>,
     /// How much the surface hides.
     pub opacity: Option<Spanned<f64>>,
     /// File of the texture of `kd`.
@@ -41,6 +45,8 @@ impl MaterialFile {
         let ks = keys.read("ks", numbers, faults);
         let ke = keys.read("ke", numbers, faults);
         let ns = keys.read("ns", number, faults);
+        let preset = keys.read("preset", text, faults);
+        let unlit = keys.read("unlit", boolean, faults);
         let opacity = keys.read("opacity", number, faults);
         let kd_map = keys.read("kd_map", text, faults);
         let ks_map = keys.read("ks_map", text, faults);
@@ -49,7 +55,21 @@ impl MaterialFile {
         if !keys.close(faults) {
             return None;
         }
-        Some(Self { name: name?, ka, kd, ks, ke, ns, opacity, kd_map, ks_map, filter, wrap })
+        Some(Self {
+            name: name?,
+            preset,
+            ka,
+            kd,
+            ks,
+            ke,
+            ns,
+            unlit,
+            opacity,
+            kd_map,
+            ks_map,
+            filter,
+            wrap,
+        })
     }
 }
 
@@ -58,12 +78,18 @@ impl MaterialFile {
 pub struct MeshFile {
     /// Where its triangles come from.
     pub source: SourceFile,
+    /// Name by which lights refer to it.
+    pub name: Option<Spanned<String>>,
     /// Name of a `[[material]]`.
     pub material: Option<Spanned<String>>,
     /// How normals vary over a triangle.
     pub shading: Option<Spanned<String>>,
     /// Whether the shading normal turns towards the eye.
     pub sides: Option<Spanned<String>>,
+    /// Where vertex normals come from.
+    pub vertex_normals: Option<Spanned<String>>,
+    /// Largest angle between faces that share a vertex normal, degrees.
+    pub crease_deg: Option<Spanned<f64>>,
     /// Displacement.
     pub translate: Option<Spanned<[f64; 3]>>,
     /// Angles about x, y and z, degrees.
@@ -90,9 +116,12 @@ impl MeshFile {
         let span = keys.header.clone();
         let file = keys.read("file", text, faults);
         let shape = keys.ask("shape");
+        let name = keys.read("name", text, faults);
         let material = keys.read("material", text, faults);
         let shading = keys.read("shading", text, faults);
         let sides = keys.read("sides", text, faults);
+        let vertex_normals = keys.read("vertex_normals", text, faults);
+        let crease_deg = keys.read("crease_deg", number, faults);
         let translate = keys.read("translate", numbers, faults);
         let rotate_deg = keys.read("rotate_deg", numbers, faults);
         let scale = keys.read("scale", one_or_three, faults);
@@ -115,6 +144,19 @@ impl MeshFile {
             (None, Some(shape)) => SourceFile::Shape(shape),
             (None, None) => return None,
         };
-        Some(Self { source, material, shading, sides, translate, rotate_deg, scale, matrix, span })
+        Some(Self {
+            source,
+            name,
+            material,
+            shading,
+            sides,
+            vertex_normals,
+            crease_deg,
+            translate,
+            rotate_deg,
+            scale,
+            matrix,
+            span,
+        })
     }
 }

@@ -1,7 +1,9 @@
 //! Scan and numbers into a mesh part: triangles, unit normals, generated normals, lines.
 
+use crate::color::LinearRgb;
 use crate::mesh::{NO_ATTRIBUTE, TriangleId};
 use crate::scene::error::{Place, SceneError};
+use crate::scene::obj::corner::Kind;
 use crate::scene::obj::indexing::Indexed;
 use crate::scene::obj::polygon::{
     MAX_CONCAVE_CORNERS, Outcome, scale_corners, triangulate, vector_area,
@@ -21,6 +23,7 @@ pub(super) fn assemble(
     report: &mut Report,
 ) -> MeshPart {
     let corner_count = scan.corners.len();
+    let colors = used_colors(scan, &indexed);
     let (mut normals, mut corner_normals) =
         make_unit(&indexed.normals, indexed.corner_normals, corner_count);
     if corner_normals.contains(&NO_ATTRIBUTE) {
@@ -33,6 +36,7 @@ pub(super) fn assemble(
         );
     }
     let mut part = MeshPart {
+        colors,
         positions: indexed.positions,
         normals,
         uvs: indexed.uvs,
@@ -50,6 +54,18 @@ pub(super) fn assemble(
     };
     append_triangles(scan, corners, &mut part, file, report);
     part
+}
+
+/// The colours of the positions that faces use.
+fn used_colors(scan: &Scan, indexed: &Indexed) -> Vec<LinearRgb> {
+    if scan.colors.is_empty() {
+        return Vec::new();
+    }
+    let mut colors = vec![[0.0; 3]; indexed.positions.len()];
+    for (corner, &position) in scan.corners.iter().zip(&indexed.corner_positions) {
+        colors[position as usize] = scan.colors[corner[Kind::Position as usize] as usize];
+    }
+    colors
 }
 
 /// Unit normals, and the corners' indices into them; a normal of length 0 counts as missing.
@@ -97,7 +113,7 @@ fn append_triangles(
     let mut scaled = Vec::new();
     let mut triangles = Vec::new();
     let mut start = 0;
-    for face in &scan.faces {
+    for (number, face) in (0..).zip(&scan.faces) {
         let range = start..face.corners_end;
         start = face.corners_end;
         triangles.clear();
@@ -122,7 +138,7 @@ fn append_triangles(
                 report.warn(file, face.line, sentence);
             }
         }
-        append_face(face, range, corners, &triangles, part);
+        append_face((number, face), range, corners, &triangles, part);
         if part.corners.len() > TriangleId::MAX_COUNT {
             report.error(SceneError::scene(Place::file(file), "too many triangles"));
             return;
@@ -131,10 +147,17 @@ fn append_triangles(
     if part.material_names.is_empty() {
         part.triangle_materials.clear();
     }
+    // Both lists go where they say what an empty one says.
+    if part.polygons.len() == scan.faces.len() {
+        part.polygons = Vec::new();
+    }
+    if part.smoothing_groups.iter().all(|&group| group == 1) {
+        part.smoothing_groups = Vec::new();
+    }
 }
 
 fn append_face(
-    face: &Face,
+    (number, face): (u32, &Face),
     range: Range<usize>,
     corners: Corners<'_>,
     triangles: &[[u32; 3]],
@@ -151,6 +174,8 @@ fn append_face(
         }
         part.triangle_materials.push(face.material);
         part.lines.push(face.line);
+        part.polygons.push(number);
+        part.smoothing_groups.push(face.group);
     }
 }
 

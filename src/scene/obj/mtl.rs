@@ -100,6 +100,7 @@ struct Draft {
     kd_map: Option<TextureRequest>,
     ks_map: Option<TextureRequest>,
     has_specular: bool,
+    unlit: bool,
     opacity: Option<f64>,
     transparency: Option<f64>,
 }
@@ -117,6 +118,7 @@ impl Draft {
             kd_map: None,
             ks_map: None,
             has_specular: true,
+            unlit: false,
             opacity: None,
             transparency: None,
         }
@@ -179,18 +181,25 @@ impl Draft {
         let line = walk.keyword().line;
         let token = walk.values().first().copied().unwrap_or(walk.keyword());
         self.has_specular = true;
+        self.unlit = false;
         match token.text.parse::<u8>() {
             Ok(0) => {
-                let sentence = "`illum 0` (unlit) is not simulated; the surface is lit, without \
-                                specular reflection";
-                report.warn(file, line, sentence);
+                self.unlit = true;
                 self.has_specular = false;
             }
             Ok(1) => self.has_specular = false,
             Ok(2) => {}
             Ok(model @ 3..=10) => {
+                let effect = match model {
+                    3 | 8 => "the reflection of other surfaces",
+                    4 | 9 => "reflecting, transparent glass",
+                    5 => "Fresnel reflection",
+                    6 => "refraction",
+                    7 => "refraction and Fresnel reflection",
+                    _ => "shadows on invisible surfaces",
+                };
                 let sentence = format!(
-                    "the reflections and refractions of `illum {model}` are not simulated; it is \
+                    "`illum {model}` asks for {effect}, which is not simulated; the surface is \
                      shaded as `illum 2`"
                 );
                 report.warn(file, line, &sentence);
@@ -235,6 +244,7 @@ fn finish(draft: Option<Draft>, file: &Path, library: &mut Library, report: &mut
         ks: if draft.has_specular { ks } else { [0.0; 3] },
         ke: draft.ke.unwrap_or(default.ke),
         ns: draft.ns.unwrap_or(default.ns),
+        unlit: draft.unlit,
         ..default
     };
     let ks_map = draft.ks_map.filter(|_| draft.has_specular);

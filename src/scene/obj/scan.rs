@@ -5,6 +5,7 @@
 
 use crate::mesh::NO_ATTRIBUTE;
 use crate::scene::error::{Place, SceneError};
+use crate::scene::obj::color::{self, WHITE};
 use crate::scene::obj::corner::{self, Kind};
 use crate::scene::obj::report::{Report, quote};
 use crate::scene::obj::scanned::{Corner, Face, Name, Scan};
@@ -50,6 +51,8 @@ const DISPLAY: &[&str] = &[
 /// What earlier statements mean for the following ones.
 struct State<'a> {
     scan: Scan,
+    /// How many `v` have a colour.
+    colored: u32,
     group: u32,
     has_groups: bool,
     material: u32,
@@ -64,6 +67,7 @@ impl<'a> State<'a> {
     fn new() -> Self {
         Self {
             scan: Scan::default(),
+            colored: 0,
             group: 0,
             has_groups: false,
             material: NO_ATTRIBUTE,
@@ -137,11 +141,29 @@ impl<'a> State<'a> {
                                 ignored";
                 report.warn(file, walk.keyword().line, sentence);
             }
-            if values.len() >= 6 {
-                report.warn(file, walk.keyword().line, "vertex colours are left out");
-            }
         }
-        self.read_attribute(walk, Kind::Position, &[3, 4, 6, 7])
+        self.read_attribute(walk, Kind::Position, &[3, 4, 6, 7])?;
+        match values.len() {
+            6 | 7 => self.read_color(walk, &values[values.len() - 3..], file, report),
+            _ => Ok(()),
+        }
+    }
+
+    /// The last three numbers of `v x y z r g b` and `v x y z w r g b`.
+    fn read_color(
+        &mut self,
+        walk: &Statements<'_>,
+        values: &[Token<'_>],
+        file: &Path,
+        report: &mut Report,
+    ) -> Result<(), SceneError> {
+        let color = color::read(walk, values, file, report)?;
+        // The statements before the first colour had none.
+        let number = self.scan.counts[Kind::Position as usize] as usize;
+        self.scan.colors.resize(number, WHITE);
+        self.scan.colors[number - 1] = color;
+        self.colored += 1;
+        Ok(())
     }
 
     /// Checks the numbers of a `v`, `vt` or `vn` and passes on those that count.
@@ -259,6 +281,14 @@ impl<'a> State<'a> {
                     SceneError::scene(walk.place(&token), message)
                 });
             }
+        }
+        let positions = self.scan.counts[Kind::Position as usize];
+        if self.colored > 0 && self.colored < positions {
+            self.scan.colors.resize(positions as usize, WHITE);
+            let missing = positions - self.colored;
+            let sentence =
+                format!("{missing} of {positions} vertices have no colour; they are white");
+            report.warn(file, 0, &sentence);
         }
         if !self.has_groups {
             self.scan.faces.iter_mut().for_each(|face| face.group = 1);

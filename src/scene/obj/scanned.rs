@@ -2,11 +2,15 @@
 //!
 //! Numbers are still text here; `indexing` has them read.
 
+use crate::color::LinearRgb;
+
 /// What the text says, with file indices resolved to 0-based ones.
 #[derive(Debug, Default)]
 pub(super) struct Scan {
     /// The `v`, `vt` and `vn` statements in their plainest form, in file order.
     pub(super) attributes: String,
+    /// Colour of each `v`, white where it has none; empty when none has.
+    pub(super) colors: Vec<LinearRgb>,
     /// How many `v`, `vt` and `vn` there are.
     pub(super) counts: [u32; 3],
     /// The corners of all faces, one after the other.

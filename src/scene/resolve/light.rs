@@ -1,5 +1,6 @@
 //! One light: its type, the keys that the type has a use for, and their ranges.
 
+use super::light_frame::{Frame, Frames};
 use super::{at_least_zero, color};
 use crate::scene::camera::unit;
 use crate::scene::file::text::Faults;
@@ -36,7 +37,14 @@ const USES: [(&str, &[&str]); 5] = [
     ("hemisphere", &["direction", "top", "bottom"]),
 ];
 
-pub(super) fn resolve(light: &LightFile, faults: &mut Faults<'_>) -> Option<Light> {
+/// What every light may have.
+const ALWAYS: [&str; 2] = ["type", "name"];
+
+pub(super) fn resolve(
+    light: &LightFile,
+    frames: &Frames<'_>,
+    faults: &mut Faults<'_>,
+) -> Option<Light> {
     let before = faults.errors.len();
     let kind = light.kind.get_ref().as_str();
     let Some((_, uses)) = USES.iter().find(|(name, _)| *name == kind) else {
@@ -52,33 +60,45 @@ pub(super) fn resolve(light: &LightFile, faults: &mut Faults<'_>) -> Option<Ligh
     };
     for key in &light.written {
         let name = key.get_ref().as_str();
-        if name != "type" && !uses.contains(&name) {
+        // Every light but the ambient one has a point or a direction that a frame can move.
+        let is_frame = name == "parent" && kind != "ambient";
+        if !(is_frame || ALWAYS.contains(&name) || uses.contains(&name)) {
             let message = format!("the type `{kind}` has no use for `{name}`");
             let help = format!("it has for: {}", uses.join(", "));
             faults.at_with_help(&key.span(), message, help);
         }
     }
+    let frame = frames.of(light, faults)?;
     let made = match kind {
         "ambient" => required(&light.ambient, "ambient", light, faults)
             .map(|rgb| Light::Ambient(AmbientLight { ambient: color(rgb, "ambient", faults) })),
-        "directional" => directional(light, faults).map(Light::Directional),
-        "point" => point(light, faults).map(Light::Point),
-        "spot" => spot(light, faults).map(Light::Spot),
-        _ => hemisphere(light, faults).map(Light::Hemisphere),
+        "directional" => directional(light, &frame, faults).map(Light::Directional),
+        "point" => point(light, &frame, faults).map(Light::Point),
+        "spot" => spot(light, &frame, faults).map(Light::Spot),
+        _ => hemisphere(light, &frame, faults).map(Light::Hemisphere),
     };
     made.filter(|_| faults.errors.len() == before)
 }
 
-fn directional(light: &LightFile, faults: &mut Faults<'_>) -> Option<DirectionalLight> {
+fn directional(
+    light: &LightFile,
+    frame: &Frame,
+    faults: &mut Faults<'_>,
+) -> Option<DirectionalLight> {
     let colors = colors(light, faults);
     let aim = required(&light.aim, "aim", light, faults)?;
-    let aim = direction(aim, *aim.get_ref(), "aim", faults)?;
+    let aim = direction(aim, frame.direction(*aim.get_ref()), "aim", faults)?;
     Some(DirectionalLight { aim, colors, shadows: shadows(light) })
 }
 
-fn hemisphere(light: &LightFile, faults: &mut Faults<'_>) -> Option<HemisphereLight> {
+fn hemisphere(
+    light: &LightFile,
+    frame: &Frame,
+    faults: &mut Faults<'_>,
+) -> Option<HemisphereLight> {
     let way = required(&light.direction, "direction", light, faults);
-    let up = way.and_then(|way| direction(way, *way.get_ref(), "direction", faults));
+    let up =
+        way.and_then(|way| direction(way, frame.direction(*way.get_ref()), "direction", faults));
     let mut rgb = |key: &str, value: &Option<Spanned<[f64; 3]>>| {
         required(value, key, light, faults).map(|rgb| color(rgb, key, faults))
     };
@@ -90,20 +110,20 @@ fn shadows(light: &LightFile) -> bool {
     light.shadows.as_ref().is_some_and(|shadows| *shadows.get_ref())
 }
 
-fn point(light: &LightFile, faults: &mut Faults<'_>) -> Option<PointLight> {
+fn point(light: &LightFile, frame: &Frame, faults: &mut Faults<'_>) -> Option<PointLight> {
     let colors = colors(light, faults);
     let attenuation = attenuation(light, faults);
-    let position = *required(&light.position, "position", light, faults)?.get_ref();
+    let position = position(light, frame, faults)?;
     Some(PointLight { position, attenuation, colors, shadows: shadows(light) })
 }
 
-fn spot(light: &LightFile, faults: &mut Faults<'_>) -> Option<SpotLight> {
+fn spot(light: &LightFile, frame: &Frame, faults: &mut Faults<'_>) -> Option<SpotLight> {
     let colors = colors(light, faults);
     let attenuation = attenuation(light, faults);
     let exponent =
         light.exponent.as_ref().map_or(0.0, |value| at_least_zero(value, "exponent", faults));
-    let position = required(&light.position, "position", light, faults).map(|p| *p.get_ref());
-    let aim = spot_aim(light, position, faults);
+    let position = position(light, frame, faults);
+    let aim = spot_aim(light, frame, position, faults);
     let cutoff = required(&light.cutoff_deg, "cutoff_deg", light, faults)?;
     let cutoff_deg = *cutoff.get_ref();
     if !(cutoff_deg > 0.0 && cutoff_deg <= 180.0) {
@@ -121,6 +141,7 @@ fn spot(light: &LightFile, faults: &mut Faults<'_>) -> Option<SpotLight> {
 /// `aim`, or the direction from the light to `target`.
 fn spot_aim(
     light: &LightFile,
+    frame: &Frame,
     position: Option<[f64; 3]>,
     faults: &mut Faults<'_>,
 ) -> Option<[f64; 3]> {
@@ -134,13 +155,23 @@ fn spot_aim(
             faults.at(&light.span, "a `spot` light lacks `target` or `aim`");
             None
         }
-        (None, Some(aim)) => direction(aim, *aim.get_ref(), "aim", faults),
+        (None, Some(aim)) => direction(aim, frame.direction(*aim.get_ref()), "aim", faults),
         (Some(target), None) => {
-            let (to, from) = (target.get_ref(), position?);
+            let (to, from) = (frame.position(*target.get_ref()), position?);
             let way = std::array::from_fn(|k| to[k] - from[k]);
             direction(target, way, "target − position", faults)
         }
     }
+}
+
+/// `position` in world space.
+fn position(light: &LightFile, frame: &Frame, faults: &mut Faults<'_>) -> Option<[f64; 3]> {
+    let written = required(&light.position, "position", light, faults)?;
+    let position = frame.position(*written.get_ref());
+    if !position.iter().all(|c| c.is_finite()) {
+        faults.at(&written.span(), "`position` is too far away for 64-bit numbers");
+    }
+    Some(position)
 }
 
 /// The unit vector along `way`.

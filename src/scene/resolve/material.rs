@@ -2,7 +2,7 @@
 
 use super::{at_least_zero, color, texture};
 use crate::scene::file::text::Faults;
-use crate::scene::file::{MaterialFile, SceneFile};
+use crate::scene::file::{MaterialFile, SceneFile, suggestion};
 use crate::scene::material::Material;
 use crate::scene::texture::TextureRequests;
 use std::collections::HashMap;
@@ -66,16 +66,33 @@ fn material(written: &MaterialFile, faults: &mut Faults<'_>) -> Material {
             faults.at(&opacity.span(), message);
         }
     }
-    let default = Material::default_named(written.name.get_ref());
+    let default =
+        preset(written, faults).unwrap_or_else(|| Material::default_named(written.name.get_ref()));
     let mut rgb = |key: &str, value: &Option<Spanned<[f64; 3]>>, default| {
         value.as_ref().map_or(default, |rgb| color(rgb, key, faults))
     };
-    // A texture alone is the whole coefficient.
-    let unless_textured = |map: &Option<_>, default| if map.is_some() { [1.0; 3] } else { default };
+    // A texture alone is the whole coefficient, unless a preset gives one.
+    let unless_textured = |map: &Option<_>, default| match map {
+        Some(_) if written.preset.is_none() => [1.0; 3],
+        _ => default,
+    };
     let kd = rgb("kd", &written.kd, unless_textured(&written.kd_map, default.kd));
-    let ka = rgb("ka", &written.ka, kd);
+    let ka = rgb("ka", &written.ka, if written.preset.is_some() { default.ka } else { kd });
     let ks = rgb("ks", &written.ks, unless_textured(&written.ks_map, default.ks));
     let ke = rgb("ke", &written.ke, default.ke);
     let ns = written.ns.as_ref().map_or(default.ns, |ns| at_least_zero(ns, "ns", faults));
-    Material { ka, kd, ks, ke, ns, ..default }
+    let unlit = written.unlit.as_ref().is_some_and(|unlit| *unlit.get_ref());
+    Material { ka, kd, ks, ke, ns, unlit, ..default }
+}
+
+/// The material of the preset that is named, with the name of this material.
+fn preset(written: &MaterialFile, faults: &mut Faults<'_>) -> Option<Material> {
+    let word = written.preset.as_ref()?;
+    let found = Material::preset(word.get_ref(), written.name.get_ref());
+    if found.is_none() {
+        let message = format!("there is no preset `{}`", word.get_ref());
+        let help = suggestion(word.get_ref(), &Material::PRESETS);
+        faults.at_with_help(&word.span(), message, help);
+    }
+    found
 }

@@ -2,6 +2,7 @@
 
 use super::library::Library;
 use super::material::Materials;
+use super::vertex_normals;
 use crate::mesh::NO_ATTRIBUTE;
 use crate::scene::assemble::{Assembly, AssemblyFault, Piece};
 use crate::scene::error::{Place, SceneError};
@@ -14,18 +15,24 @@ use crate::scene::{Shading, Sides, Source};
 use std::path::Path;
 use toml::Spanned;
 
+/// The transform of each mesh.
+pub(super) fn transforms(file: &SceneFile, faults: &mut Faults<'_>) -> Vec<Transform> {
+    file.meshes.iter().map(|mesh| transform(mesh, faults)).collect()
+}
+
 pub(super) fn resolve(
     file: &SceneFile,
     base: &Path,
+    transforms: Vec<Transform>,
     materials: &mut Materials,
     naive_normals: bool,
     faults: &mut Faults<'_>,
 ) -> Assembly {
     let mut assembly = Assembly::default();
     let mut library = Library::default();
-    for mesh in &file.meshes {
+    for (mesh, transform) in file.meshes.iter().zip(transforms) {
         // Report every fault of the mesh before giving it up.
-        let transform = transform(mesh, faults);
+        let normals = vertex_normals::rule(mesh, faults);
         let sides = sides(mesh, faults);
         let shading = shading(mesh, faults);
         let named = named_material(mesh, file, materials, faults);
@@ -46,6 +53,8 @@ pub(super) fn resolve(
                 (&read.file.part, written.get_ref().clone(), Source::File { path, lines }, own)
             }
         };
+        let remade = normals.and_then(|rule| vertex_normals::remake(part, rule, mesh, faults));
+        let part = remade.as_ref().unwrap_or(part);
         let piece = Piece {
             part,
             transform,

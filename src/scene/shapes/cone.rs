@@ -49,7 +49,7 @@ impl Cone {
             let above = f64::from(stacks - row) / f64::from(stacks);
             ring_point(column, around, below * radius, above * height)
         });
-        grid.append_triangles(&mut part.corners, points);
+        grid.append_cells(&mut part, points);
         // Normals lie on the columns, at the apex between them.
         let slant = libm::hypot(radius, height);
         let [outwards, up] = [height / slant, radius / slant];

@@ -56,7 +56,7 @@ impl Cuboid {
         for (number, face) in FACES.iter().enumerate() {
             let points = grid
                 .fill_points(&mut part.positions, |row, column| self.position(face, row, column));
-            grid.append_triangles(&mut part.corners, points);
+            grid.append_cells(&mut part, points);
             grid.append_triangles(&mut part.corner_normals, Numbering::constant(number as u32));
             grid.append_triangles(&mut part.corner_uvs, texture);
             let mut normal = [0.0; 3];

@@ -46,7 +46,7 @@ impl Cylinder {
             let y = f64::from(stacks - row) / f64::from(stacks) * height;
             ring_point(column, around, radius, y)
         });
-        grid.append_triangles(&mut part.corners, points);
+        grid.append_cells(&mut part, points);
         // One normal per column serves all rows.
         let columns = Grid { rows_close: true, ..Grid::tube(1, around) };
         let normals = columns.fill_points(&mut part.normals, |_, column| {

@@ -37,7 +37,7 @@ pub(super) fn append_disc(
             ring_point(column, around, radius, height)
         }
     });
-    grid.append_triangles(&mut part.corners, points);
+    grid.append_cells(part, points);
 
     let normal = Numbering::constant(part.normals.len() as u32);
     part.normals.push([0.0, up, 0.0]);

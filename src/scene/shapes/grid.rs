@@ -5,6 +5,8 @@
 //! (top left, bottom left, bottom right) and (top left, bottom right, top right) run
 //! counter-clockwise. At an edge that shrinks to a point, the triangle without area is left out.
 
+use crate::scene::part::MeshPart;
+
 /// What the first or last row of points is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Edge {
@@ -133,6 +135,21 @@ impl Grid {
             let s = (f64::from(column) + shift) / f64::from(self.columns);
             [s, f64::from(self.rows - row) / f64::from(self.rows)]
         })
+    }
+
+    /// Appends the corners, cell by cell, row by row; every cell is a polygon.
+    pub(super) fn append_cells(&self, part: &mut MeshPart, points: Numbering) {
+        let first = part.polygons.last().map_or(0, |last| last + 1);
+        self.append_triangles(&mut part.corners, points);
+        for row in 0..self.rows {
+            let shrinks_above = row == 0 && self.top == Edge::Point;
+            let shrinks_below = row + 1 == self.rows && self.bottom == Edge::Point;
+            let triangles = usize::from(!shrinks_above) + usize::from(!shrinks_below);
+            for column in 0..self.columns {
+                let cell = first + row * self.columns + column;
+                part.polygons.extend(std::iter::repeat_n(cell, triangles));
+            }
+        }
     }
 
     /// Appends the triangles, cell by cell, row by row, as indices of a numbering.

@@ -43,7 +43,7 @@ impl Plane {
             let x = centred(column, self.columns, self.width);
             [x, 0.0, centred(row, self.rows, self.depth)]
         });
-        grid.append_triangles(&mut part.corners, points);
+        grid.append_cells(&mut part, points);
         grid.append_triangles(&mut part.corner_normals, Numbering::constant(0));
         let texture = grid.fill_texture_points(&mut part.uvs);
         grid.append_triangles(&mut part.corner_uvs, texture);

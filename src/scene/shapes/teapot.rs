@@ -117,7 +117,7 @@ impl Surface {
             let (patch, u, v) = at(row, column);
             bezier::point(patch, u, v)
         });
-        grid.append_triangles(&mut part.corners, points);
+        grid.append_cells(part, points);
         let normals = grid.fill_points(&mut part.normals, |row, column| {
             let (patch, u, v) = at(row, column);
             bezier::normal(patch, u, v)

@@ -47,7 +47,7 @@ impl Torus {
             let distance = self.major + self.minor * outwards;
             [distance * x, 0.0 - self.minor * down, distance * z]
         });
-        grid.append_triangles(&mut part.corners, points);
+        grid.append_cells(&mut part, points);
         grid.fill_points(&mut part.normals, |row, column| {
             let [outwards, down] = turn(row, self.across);
             let [x, z] = heading(column, self.around);

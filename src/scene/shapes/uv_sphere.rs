@@ -39,7 +39,7 @@ impl UvSphere {
         let mut part = MeshPart::default();
         let points = grid.fill_points(&mut part.normals, |ring, column| self.normal(ring, column));
         part.positions = part.normals.iter().map(|n| n.map(|c| c * self.radius)).collect();
-        grid.append_triangles(&mut part.corners, points);
+        grid.append_cells(&mut part, points);
         part.corner_normals = part.corners.clone();
         let texture = grid.fill_texture_points(&mut part.uvs);
         grid.append_triangles(&mut part.corner_uvs, texture);

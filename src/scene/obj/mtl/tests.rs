@@ -34,6 +34,7 @@ fn coefficients_and_their_defaults() {
         ns: 250.0,
         kd_map: None,
         ks_map: None,
+        unlit: false,
     };
     assert_eq!(library.find("a"), Some(&expected));
     assert_eq!(library.find("b"), Some(&Material::default_named("b")));
@@ -49,11 +50,12 @@ fn ambient_follows_diffuse_in_any_order() {
 
 #[test]
 fn illumination_models() {
-    for (model, ks, warned) in [(0, 0.0, true), (1, 0.0, false), (2, 0.5, false), (7, 0.5, true)] {
+    for (model, ks, warned) in [(0, 0.0, false), (1, 0.0, false), (2, 0.5, false), (7, 0.5, true)] {
         for text in [format!("illum {model}\nKs 0.5"), format!("Ks 0.5\nillum {model}")] {
             let (library, warnings) = library(&format!("newmtl a\n{text}"));
             assert_eq!(library.find("a").unwrap().ks, [ks; 3], "{text}");
             assert_eq!(!warnings.is_empty(), warned, "{warnings:?}");
+            assert_eq!(library.find("a").unwrap().unlit, model == 0, "{text}");
         }
     }
     assert_eq!(fault("newmtl a\nillum 300"), "t.mtl:2:7: `300` is no illumination model");
