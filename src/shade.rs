@@ -7,6 +7,7 @@
 
 pub mod blinn_phong;
 mod calls;
+mod coefficients;
 mod corners;
 pub mod effects;
 mod equation;
@@ -36,7 +37,8 @@ use crate::pixel::{self, Pixel};
 use crate::scene::Scene;
 use crate::scene::material::Material;
 use crate::visibility::{VisibilityBuffer, Visible};
-use equation::{Coefficients, Geometry, KernelEffects, Lighting};
+use coefficients::Coefficients;
+use equation::{Geometry, KernelEffects, Lighting};
 use kernel::Frame;
 use method::Method;
 use std::sync::Mutex;
@@ -166,7 +168,7 @@ pub fn terms(
     let (object, _) = scene.object_of(visible.triangle);
     let (_, material) = scene.material_of(visible.triangle);
     let frame = Frame::new(scene, Effects::ALL, occlusion);
-    let coefficients = Coefficients::of(material, frame.rules);
+    let coefficients = coefficients::at_pixel(&frame, pixel, visible, material, &mut Nobody);
     let is_hidden = |light| frame.is_hidden(pixel, visible, light);
     let lights_at = |geometry: Option<&Geometry>| {
         let mut lights = vec![LightTerm::DARK; scene.lights.len()];
@@ -174,6 +176,10 @@ pub fn terms(
         equation::radiance_of::<ALL, _>(&frame, &coefficients, geometry, lighting, &mut lights);
         lights
     };
+    if let Some(color) = kernel::unlit_color(&frame, visible, &coefficients, &mut Nobody) {
+        let lights = vec![LightTerm::DARK; scene.lights.len()];
+        return Terms { surface, emission: color, lights, elsewhere: Vec::new() };
+    }
     let method = frame.methods[object];
     let mut elsewhere = Vec::new();
     let lights = match method {
@@ -208,9 +214,5 @@ pub fn terms(
             elsewhere[0].1.clone()
         }
     };
-    let emission = match method {
-        Method::VertexColors => material.kd,
-        _ => coefficients.emission,
-    };
-    Terms { surface, emission, lights, elsewhere }
+    Terms { surface, emission: coefficients.emission, lights, elsewhere }
 }

@@ -52,7 +52,7 @@
 //! | `material.ks` | the preset's, else `[0, 0, 0]`, with `ks_map` `[1, 1, 1]` | RGB: specular reflection |
 //! | `material.ke` | `[0, 0, 0]` | RGB: emission |
 //! | `material.ns` | 32 | specular exponent, at least 0 |
-//! | `material.unlit` | false | true: radiance is `kd`, times its map and vertex colour, whatever the lights |
+//! | `material.unlit` | false | true: radiance is `kd`, times its map, whatever the lights |
 //! | `material.opacity` | 1 | 0…1; only 1 is simulated |
 //! | `material.kd_map` | none | a PNG or JPEG file that multiplies `kd` where a triangle has texture coordinates; `ka` stays as it is |
 //! | `material.ks_map` | none | likewise for `ks` |

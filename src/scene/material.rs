@@ -41,7 +41,7 @@ pub struct Material {
     pub kd_map: Option<TextureRef>,
     /// Multiplies `ks`, likewise.
     pub ks_map: Option<TextureRef>,
-    /// Radiance is kd (times its map and the vertex colour), whatever the lights.
+    /// Radiance is kd (times its map), whatever the lights.
     pub unlit: bool,
 }
 

@@ -47,7 +47,7 @@ pub(super) fn visit_calls(scene: &Scene, mut call: impl FnMut(Effects, Caller)) 
     let worn = || scene.materials.iter().enumerate().filter(|(index, _)| in_use[*index]);
     let rules = scene.switches.rules();
     let mut reflectance = Reflectance::default();
-    for (index, material) in worn() {
+    for (index, material) in worn().filter(|(_, material)| !material.unlit) {
         if !is_black(material.ke) {
             call(Effects::EMISSION, Caller::Material(index));
         }
@@ -69,7 +69,7 @@ pub(super) fn visit_calls(scene: &Scene, mut call: impl FnMut(Effects, Caller)) 
 
     // Materials call for the terms in which they meet a light.
     for (index, material) in worn() {
-        visit_material(material, &lit, |effect| call(effect, Caller::Material(index)));
+        visit_material(material, rules, &lit, |effect| call(effect, Caller::Material(index)));
     }
 
     // Normals matter where something depends on their direction.
@@ -112,6 +112,7 @@ fn visit_light(
     let ambient = meets(colors.ambient, reflectance.ambient);
     if ambient {
         call(Effects::AMBIENT);
+        merge(&mut lit.ambient, colors.ambient);
     }
     let diffuse = meets(colors.diffuse, reflectance.diffuse);
     let specular = meets(colors.specular, reflectance.specular);
@@ -150,12 +151,27 @@ fn visit_light(
     }
 }
 
-fn visit_material(material: &Material, lit: &Reflectance, mut call: impl FnMut(Effects)) {
-    if meets(material.kd, lit.diffuse) {
+fn visit_material(
+    material: &Material,
+    rules: &Rules,
+    lit: &Reflectance,
+    mut call: impl FnMut(Effects),
+) {
+    let reflects_diffuse = !material.unlit && meets(material.kd, lit.diffuse);
+    let reflects_specular = !material.unlit && meets(material.ks, lit.specular);
+    if reflects_diffuse {
         call(Effects::DIFFUSE);
     }
-    if meets(material.ks, lit.specular) {
+    if reflects_specular {
         call(Effects::SPECULAR);
+    }
+    let shows_diffuse = reflects_diffuse
+        || material.unlit
+        || lit.around
+        || rules.ambient_by_diffuse && meets(material.kd, lit.ambient);
+    if material.kd_map.is_some() && shows_diffuse || material.ks_map.is_some() && reflects_specular
+    {
+        call(Effects::TEXTURES);
     }
 }
 

@@ -5,7 +5,8 @@
 //! Sources: Gouraud, "Continuous Shading of Curved Surfaces" (1971), by way of Curless, "Shading"
 //! and IIT, "Gouraud Surface Rendering"; OpenGL's provoking vertex.
 
-use super::equation::{Coefficients, Geometry, KernelEffects, Lighting, radiance_of};
+use super::coefficients::Coefficients;
+use super::equation::{Geometry, KernelEffects, Lighting, radiance_of};
 use super::kernel::Frame;
 use super::surface;
 use super::watch::Watch;

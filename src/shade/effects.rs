@@ -40,11 +40,13 @@ impl Effects {
     pub const HEMISPHERE: Self = Self(1 << 11);
     /// Shadow rays of lights that cast shadows.
     pub const SHADOWS: Self = Self(1 << 12);
+    /// Textures of kd and ks.
+    pub const TEXTURES: Self = Self(1 << 13);
     /// Every effect: the reference that every smaller set is compared with.
-    pub const ALL: Self = Self((1 << 13) - 1);
+    pub const ALL: Self = Self((1 << 14) - 1);
 
     /// Each single effect with its name, in the order of the bits.
-    pub const NAMED: [(Self, &'static str); 13] = [
+    pub const NAMED: [(Self, &'static str); 14] = [
         (Self::EMISSION, "emission"),
         (Self::AMBIENT, "ambient"),
         (Self::DIRECTIONAL, "directional"),
@@ -58,6 +60,7 @@ impl Effects {
         (Self::INTERPOLATED_NORMALS, "interpolated normals"),
         (Self::HEMISPHERE, "hemisphere"),
         (Self::SHADOWS, "shadows"),
+        (Self::TEXTURES, "textures"),
     ];
 
     /// The effects that a scene calls for.

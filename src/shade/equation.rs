@@ -10,6 +10,7 @@
 //! computed, so no 0·∞ exists. No clamping and no visibility here; whether a light is hidden is asked.
 
 use super::blinn_phong::{halfway, one_minus_cosine, shortened_lobe};
+use super::coefficients::{Coefficients, product};
 use super::effects::Effects;
 use super::hemisphere::top_share;
 use super::kernel::Frame;
@@ -22,7 +23,6 @@ use super::watch::{Note, Watch};
 use super::weights::mix;
 use crate::color::LinearRgb;
 use crate::scene::light::HemisphereLight;
-use crate::scene::material::Material;
 use crate::scene::switches::{BacklitSpecular, Rules, SpecularModel};
 
 /// Below this |N·L| the side of the terminator is in doubt: N and L are each unit and right to a
@@ -86,29 +86,6 @@ pub(super) struct Geometry {
 pub(super) struct Mixture {
     pub(super) corners: [[f64; 3]; 3],
     pub(super) weights: [f64; 3],
-}
-
-/// The coefficients at a point, after textures and switches.
-#[derive(Clone, Copy)]
-pub(super) struct Coefficients {
-    pub(super) emission: LinearRgb,
-    pub(super) ambient: LinearRgb,
-    pub(super) diffuse: LinearRgb,
-    pub(super) specular: LinearRgb,
-    pub(super) exponent: f64,
-}
-
-impl Coefficients {
-    pub(super) fn of(material: &Material, rules: &Rules) -> Self {
-        let ambient = if rules.ambient_by_diffuse { material.kd } else { material.ka };
-        Self {
-            emission: material.ke,
-            ambient,
-            diffuse: material.kd,
-            specular: material.ks,
-            exponent: material.ns,
-        }
-    }
 }
 
 /// What is known beforehand of the lights at a point.
@@ -404,8 +381,4 @@ fn reach_factor<const E: u8, W: Watch>(
         factor = (factor / attenuation_denominator(abc, distance)).min(f64::MAX);
     }
     Some(factor)
-}
-
-fn product(a: LinearRgb, b: LinearRgb) -> LinearRgb {
-    [a[0] * b[0], a[1] * b[1], a[2] * b[2]]
 }

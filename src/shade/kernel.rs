@@ -3,9 +3,10 @@
 //!
 //! The body of the equation is in `equation`; only the loop and the set-up of surfaces are here.
 
+use super::coefficients::{self, Coefficients};
 use super::corners::{self, Memo};
 use super::effects::Effects;
-use super::equation::{Coefficients, Geometry, KernelEffects, Lighting, Mixture, radiance_of};
+use super::equation::{Geometry, KernelEffects, Lighting, Mixture, radiance_of};
 use super::lights::{self, Origin, PreparedLight, is_black};
 use super::method::Method;
 use super::reach::{self, Bounds, RUN};
@@ -170,9 +171,13 @@ fn shade_pixel<const E: u8, W: Watch>(
     let scene = frame.scene;
     let (object, _) = scene.object_of(visible.triangle);
     let (_, material) = scene.material_of(visible.triangle);
-    let coefficients = Coefficients::of(material, frame.rules);
+    let coefficients = coefficients::at_pixel(frame, pixel, visible, material, watch);
+    let depends_on_pixel = frame.shadowed || coefficients.textured;
     let is_hidden = |light| frame.is_hidden(pixel, visible, light);
     let lighting = Lighting { reaches, is_hidden: &is_hidden };
+    if let Some(color) = unlit_color(frame, visible, &coefficients, watch) {
+        return color;
+    }
     match frame.methods[object] {
         method @ (Method::SmoothPixel | Method::FlatPixel) => {
             let geometry = geometry_at_pixel::<E, W>(
@@ -187,7 +192,7 @@ fn shade_pixel<const E: u8, W: Watch>(
         }
         method @ (Method::SmoothCorners | Method::FlatCorners) => {
             let is_smooth = method == Method::SmoothCorners;
-            let colors = memo.colors(visible, frame.shadowed, || {
+            let colors = memo.colors(visible, depends_on_pixel, || {
                 [0, 1, 2].map(|corner| {
                     let point = corners::at_corner(frame, visible, corner, is_smooth, watch);
                     corners::lit::<E, W>(frame, &coefficients, &point, lighting, watch)
@@ -196,7 +201,7 @@ fn shade_pixel<const E: u8, W: Watch>(
             mix_colors(weights(scene, visible, watch), colors)
         }
         method @ (Method::Centroid | Method::LastCorner) => {
-            memo.colors(visible, frame.shadowed, || {
+            memo.colors(visible, depends_on_pixel, || {
                 let point = match method {
                     Method::Centroid => corners::at_centroid(frame, visible, watch),
                     _ => corners::at_corner(frame, visible, 2, true, watch),
@@ -204,8 +209,25 @@ fn shade_pixel<const E: u8, W: Watch>(
                 [corners::lit::<E, W>(frame, &coefficients, &point, lighting, watch); 3]
             })[0]
         }
-        Method::VertexColors => material.kd,
+        Method::VertexColors => [0.0; 3],
     }
+}
+
+/// The colour of a surface that no light changes: kd of an unlit material, or the interpolated
+/// colours of the vertices (white where the mesh has none).
+pub(super) fn unlit_color<W: Watch>(
+    frame: &Frame<'_>,
+    visible: &Visible,
+    coefficients: &Coefficients,
+    watch: &mut W,
+) -> Option<LinearRgb> {
+    let scene = frame.scene;
+    let (object, _) = scene.object_of(visible.triangle);
+    if frame.methods[object] == Method::VertexColors {
+        let colors = scene.mesh.colors_of(visible.triangle).unwrap_or([[1.0; 3]; 3]);
+        return Some(mix_colors(weights(scene, visible, watch), colors));
+    }
+    scene.material_of(visible.triangle).1.unlit.then_some(coefficients.diffuse)
 }
 
 /// The point that is visible at a pixel as lights see it; `None` where none has a direction.
