@@ -15,6 +15,7 @@ pub mod material;
 pub mod obj;
 pub mod part;
 mod resolve;
+pub mod sampling;
 pub mod shapes;
 pub mod switches;
 mod transform;
@@ -26,6 +27,7 @@ use crate::mesh::{TriangleId, TriangleMesh};
 use camera::PinholeCamera;
 use light::Light;
 use material::Material;
+use sampling::SampleGrid;
 use std::ops::Range;
 use std::path::PathBuf;
 use switches::Switches;
@@ -37,6 +39,8 @@ pub struct Scene {
     pub camera: PinholeCamera,
     /// Radiance where nothing is visible.
     pub background: LinearRgb,
+    /// Samples per pixel for colour and alpha; every other plane is of the pixel centre.
+    pub samples: SampleGrid,
     /// All triangles, world space, in the order of ids.
     pub mesh: TriangleMesh,
     /// The meshes of the file, in order; their triangle ranges follow each other without gaps.
@@ -117,6 +121,7 @@ impl Scene {
         Self {
             camera,
             background: [0.0; 3],
+            samples: SampleGrid::CENTRE,
             mesh: TriangleMesh {
                 positions,
                 corners: (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
@@ -147,6 +152,11 @@ impl Scene {
     pub fn material_of(&self, id: TriangleId) -> (usize, &Material) {
         let index = self.triangle_materials[id.index()] as usize;
         (index, &self.materials[index])
+    }
+
+    /// Whether nothing is seen through a triangle.
+    pub fn is_opaque(&self, id: TriangleId) -> bool {
+        self.material_of(id).1.opacity == 1.0
     }
 
     /// Where a triangle was written: `file.obj:line`, or the shape and the triangle's number in it.

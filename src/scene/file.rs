@@ -28,7 +28,7 @@
 //! | `image.width` | must | columns, 1…65536 |
 //! | `image.height` | must | rows, 1…65536 |
 //! | `image.background` | `[0, 0, 0]` | RGB where nothing is visible |
-//! | `image.samples` | 1 | samples per pixel and axis; only 1 is simulated |
+//! | `image.samples` | 1 | samples per pixel and axis for colour and alpha, 1…16 |
 //! | `camera.eye` | must | look-at camera: where it is |
 //! | `camera.target` | must | look-at camera: the point in the middle of the image |
 //! | `camera.up` | must | look-at camera: what points upwards in the image |
@@ -51,7 +51,7 @@
 //! | `material.ks` | `[0, 0, 0]` | RGB: specular reflection |
 //! | `material.ke` | `[0, 0, 0]` | RGB: emission |
 //! | `material.ns` | 32 | specular exponent, at least 0 |
-//! | `material.opacity` | 1 | 0…1; only 1 is simulated |
+//! | `material.opacity` | 1 | 0…1: below 1 what lies behind is seen through, blended front to back |
 //! | `material.kd_map` | none | texture of `kd`; not simulated by this version |
 //! | `material.ks_map` | none | texture of `ks`; not simulated by this version |
 //! | `material.filter` | none | filter of textures; not simulated by this version |

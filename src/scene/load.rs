@@ -5,6 +5,7 @@ use super::error::{Fault, Place, SceneError};
 use super::file::SceneFile;
 use super::file::text::{Faults, line_and_column};
 use super::resolve;
+use super::sampling::SampleGrid;
 use crate::pixel::Resolution;
 use std::fmt;
 use std::path::Path;
@@ -15,6 +16,8 @@ pub struct Overrides {
     /// Another size of the frame. A look-at or OpenGL camera fills it; the numbers of the other two
     /// forms belong to their size, and another one is refused.
     pub resolution: Option<Resolution>,
+    /// Another number of samples per pixel.
+    pub samples: Option<SampleGrid>,
 }
 
 /// All faults of a scene and its meshes; at least one. Displayed one a line, advice below.

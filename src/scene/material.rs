@@ -19,10 +19,14 @@ pub struct Material {
     pub ke: LinearRgb,
     /// n_s: specular exponent.
     pub ns: f64,
+    /// How much of the surface there is for the eye, 0…1: below 1 what lies behind is seen through
+    /// it.
+    pub opacity: f64,
 }
 
 impl Material {
-    /// The material of surfaces that name none: kd 0.8, ka = kd, no specular, no emission, ns 32.
+    /// The material of surfaces that name none: kd 0.8, ka = kd, no specular, no emission, ns 32,
+    /// opaque.
     pub fn default_named(name: &str) -> Self {
         Self {
             name: name.to_owned(),
@@ -31,6 +35,7 @@ impl Material {
             ks: [0.0; 3],
             ke: [0.0; 3],
             ns: 32.0,
+            opacity: 1.0,
         }
     }
 }

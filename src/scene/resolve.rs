@@ -31,12 +31,14 @@ pub(super) fn scene(
         .and_then(|image| image.background.as_ref())
         .map_or([0.0; 3], |rgb| color(rgb, "background", faults));
     let camera = camera::resolve(file, overrides, faults);
+    let samples = camera::samples(file, faults);
     let mut materials = material::resolve(file, faults);
     let lights = file.lights.iter().filter_map(|light| light::resolve(light, faults)).collect();
     let assembly = mesh::resolve(file, base, &mut materials, faults);
     Some(Scene {
         camera: camera?,
         background,
+        samples: overrides.samples.unwrap_or(samples),
         mesh: assembly.mesh,
         objects: assembly.objects,
         materials: materials.list,

@@ -36,11 +36,15 @@ impl Effects {
     pub const SPECULAR: Self = Self(1 << 9);
     /// Corner normals, interpolated.
     pub const INTERPOLATED_NORMALS: Self = Self(1 << 10);
+    /// Surfaces seen through others: blended by `render`, which shades each as any other.
+    pub const OPACITY: Self = Self(1 << 11);
+    /// Several samples per pixel: averaged by `render`.
+    pub const SUPERSAMPLING: Self = Self(1 << 12);
     /// Every effect: the reference that every smaller set is compared with.
-    pub const ALL: Self = Self((1 << 11) - 1);
+    pub const ALL: Self = Self((1 << 13) - 1);
 
     /// Each single effect with its name, in the order of the bits.
-    pub const NAMED: [(Self, &'static str); 11] = [
+    pub const NAMED: [(Self, &'static str); 13] = [
         (Self::EMISSION, "emission"),
         (Self::AMBIENT, "ambient"),
         (Self::DIRECTIONAL, "directional"),
@@ -52,6 +56,8 @@ impl Effects {
         (Self::DIFFUSE, "diffuse"),
         (Self::SPECULAR, "specular"),
         (Self::INTERPOLATED_NORMALS, "interpolated normals"),
+        (Self::OPACITY, "opacity"),
+        (Self::SUPERSAMPLING, "supersampling"),
     ];
 
     /// The effects that a scene calls for.

@@ -100,8 +100,14 @@ fn assert_sound(loaded: Result<Scene, SceneErrors>, name: &str, fate: &mut Fate)
     for answer in &answers {
         let no_nan = answer.radiance.iter().flatten().all(|c| !c.is_nan() && *c >= 0.0);
         assert!(no_nan, "{name}: {:?}", answer.radiance);
-        let film =
-            develop(&scene, &answer.buffer, &answer.radiance, &PlaneGroups::all(), Accuracy::Exact);
+        let film = develop(
+            &scene,
+            &answer.buffer,
+            &answer.radiance,
+            &answer.alpha,
+            &PlaneGroups::all(),
+            Accuracy::Exact,
+        );
         for plane in &film.planes {
             let Samples::Float(values) = &plane.samples else { continue };
             assert!(values.iter().all(|value| !value.is_nan()), "{name}: {}", plane.name);
@@ -193,7 +199,8 @@ fn every_number_of_a_gl_camera_and_of_shapes() {
 fn extreme_frames() {
     let folder = tempfile::tempdir().unwrap();
     for [width, height] in [[1, 1], [1, 65_536], [65_536, 1], [1, 2], [2, 1]] {
-        let overrides = Overrides { resolution: Resolution::new(width, height) };
+        let overrides =
+            Overrides { resolution: Resolution::new(width, height), ..Overrides::default() };
         for form in [&FORMS[0], &FORMS[3]] {
             let texts = [form.obj, form.mtl].map(|text| substitute(text, None));
             std::fs::write(folder.path().join("mesh.obj"), &texts[0]).unwrap();

@@ -54,16 +54,14 @@ fn material(written: &MaterialFile, faults: &mut Faults<'_>) -> Material {
         let message = format!("textures (`{}`) are not simulated by this version", key.get_ref());
         faults.at(&key.span(), message);
     }
-    if let Some(opacity) = &written.opacity {
+    let default = Material::default_named(written.name.get_ref());
+    let opacity = written.opacity.as_ref().map_or(default.opacity, |opacity| {
         let number = *opacity.get_ref();
         if !(0.0..=1.0).contains(&number) {
             faults.at(&opacity.span(), format!("`opacity` must be from 0 to 1, not {number}"));
-        } else if number != 1.0 {
-            let message = "transparency (`opacity` other than 1) is not simulated by this version";
-            faults.at(&opacity.span(), message);
         }
-    }
-    let default = Material::default_named(written.name.get_ref());
+        number
+    });
     let mut rgb = |key: &str, value: &Option<Spanned<[f64; 3]>>, default| {
         value.as_ref().map_or(default, |rgb| color(rgb, key, faults))
     };
@@ -72,5 +70,5 @@ fn material(written: &MaterialFile, faults: &mut Faults<'_>) -> Material {
     let ks = rgb("ks", &written.ks, default.ks);
     let ke = rgb("ke", &written.ke, default.ke);
     let ns = written.ns.as_ref().map_or(default.ns, |ns| at_least_zero(ns, "ns", faults));
-    Material { name: default.name, ka, kd, ks, ke, ns }
+    Material { name: default.name, ka, kd, ks, ke, ns, opacity }
 }

@@ -12,12 +12,12 @@ pub(super) fn mesh_refused(marked: &str, messages: &[&str]) {
 #[test]
 fn materials() {
     refused(
-        "[[material]]\nname = \"a\"\nkd = ▸[1, -1, 0]\nns = ▸-1\nopacity = ▸0.5\n▸kd_map = \"w.png\"\n\
+        "[[material]]\nname = \"a\"\nkd = ▸[1, -1, 0]\nns = ▸-1\nopacity = ▸-0.5\n▸kd_map = \"w.png\"\n\
          [[material]]\nname = ▸\"a\"\nopacity = ▸2\n▸filter = \"mip\"\n▸wrap = \"clamp\"\n▸[[material]]\n",
         &[
             "`kd` must be at least 0 in every channel, not -1",
             "`ns` must be at least 0, not -1",
-            "transparency (`opacity` other than 1) is not simulated by this version",
+            "`opacity` must be from 0 to 1, not -0.5",
             "textures (`kd_map`) are not simulated by this version",
             "the name `a` is taken by another material",
             "`opacity` must be from 0 to 1, not 2",
