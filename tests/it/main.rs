@@ -24,6 +24,8 @@ mod layers;
 mod lighting;
 // OBJ and MTL, one test per misreading.
 mod obj;
+// What is seen through surfaces: exact order by both paths, and what comes of it in colour.
+mod opacity;
 // The rasterizer on golden and hard scenes: tile sizes, windows, threads.
 mod raster;
 // What the README shows is what the program does.
@@ -46,6 +48,8 @@ mod stability;
 mod structured;
 // Golden scenes and builders that several modules use.
 mod support;
+// Several samples per pixel, as the program gives them.
+mod supersampling;
 // The list of visible triangles, and what lies between pixel centres.
 mod visible;
 // The rasterizer as graphics processors have it: exactly once, and where it may differ.

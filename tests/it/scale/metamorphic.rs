@@ -21,7 +21,7 @@ use truecast::shade::{Effects, shade};
 use truecast::visibility::{Counting, Facing, Layers, VisibilityBuffer, Visible};
 
 /// Scenes full of ties, in front of G(8) with the eye at the origin: name and triangles.
-fn scenes_with_ties() -> Vec<(String, Vec<Triangle>)> {
+pub(super) fn scenes_with_ties() -> Vec<(String, Vec<Triangle>)> {
     let mut scenes: Vec<(String, Vec<Triangle>)> =
         ["grid_exact", "interpenetrating_2^-20", "box_inside", "tiny_in_front_of_huge"]
             .map(|name| (name.to_owned(), triangles_of(&golden::scene(name).scene)))
