@@ -123,10 +123,10 @@ pub(super) struct CheckArguments {
 #[command(next_help_heading = "Another program's picture, held against the exact answer")]
 pub(super) struct ForeignArguments {
     /// Its triangle ids: .npy, .exr (channel `id.prim`, or the only UINT one) or .png
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["pixel", "audit"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["pixel", "audit", "samples"])]
     pub(super) ids: Option<PathBuf>,
     /// Its depths: .exr or .npy; along the view axis, or ray parameters if the channel is named `t`
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["pixel", "audit"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["pixel", "audit", "samples"])]
     pub(super) depth: Option<PathBuf>,
     /// EXR channel of the ids
     #[arg(long, value_name = "NAME", requires = "ids")]

@@ -105,7 +105,9 @@ fn the_check_finds_damage_behind_the_nearest_surface() {
     let wrong = answer(&other, &options, &Unwatched);
     let window = right[0].buffer.window;
     let index = (0..window.len())
-        .find(|&i| right[0].layers.of(i) != wrong[0].layers.of(i) && right[0].layers.of(i) != [])
+        .find(|&i| {
+            right[0].layers.of(i) != wrong[0].layers.of(i) && !right[0].layers.of(i).is_empty()
+        })
         .expect("some pixel sees more");
     for (path, blame) in [(0, Blame::Cast), (1, Blame::Raster)] {
         let mut damaged = right.clone();
