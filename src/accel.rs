@@ -15,8 +15,9 @@ pub(crate) use entries::LeafTriangle;
 pub use preset::BuildPreset;
 pub(crate) use traverse::{Pending, Slabs};
 
-use crate::mesh::TriangleMesh;
+use crate::mesh::{TriangleId, TriangleMesh};
 use node::{Child, Tree};
+use std::collections::HashMap;
 
 /// Deepest tree that is kept as obvhs made it. Meshes and soups of 10⁵ triangles measure 24 to 40;
 /// one deeper than this is a chain, and a balanced tree over the spatial order is better.
@@ -26,6 +27,8 @@ const DEEPEST: usize = 96;
 #[derive(Clone, Debug)]
 pub struct Accelerator {
     tree: Tree,
+    /// The other ids of each triangle that is kept for several, under the lowest.
+    copies: HashMap<TriangleId, Vec<TriangleId>>,
 }
 
 impl Accelerator {
@@ -50,7 +53,7 @@ impl Accelerator {
                 if tree.depth > DEEPEST { node::lay_out_balanced(&entries) } else { tree }
             }
         };
-        Self { tree }
+        Self { tree, copies: entries.copies }
     }
 
     /// No hierarchy: one leaf with every triangle of the mesh, nothing left out or folded. The
@@ -65,7 +68,13 @@ impl Accelerator {
                 nodes: Vec::new(),
                 triangles,
             },
+            copies: HashMap::new(),
         }
+    }
+
+    /// The triangles that are bitwise equal to one of a leaf and kept with it: their ids are higher.
+    pub(crate) fn copies_of(&self, id: TriangleId) -> &[TriangleId] {
+        self.copies.get(&id).map_or(&[], Vec::as_slice)
     }
 
     /// Nodes on the longest path from the root, leaves included; 0 for an empty hierarchy.

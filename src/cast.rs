@@ -12,6 +12,7 @@ mod coverage;
 mod exact;
 mod expansion;
 mod filter;
+mod layers;
 mod memo;
 mod pair;
 mod ray;
@@ -25,6 +26,8 @@ use crate::scene::Scene;
 use crate::visibility::{
     Counting, Cover, Facing, Level, LevelCounts, VisibilityBuffer, VisibilityTile, Visible,
 };
+pub use layers::cast_layers;
+
 use candidate::Candidate;
 use memo::{PicturePairs, SamePlane};
 use ray::View;

@@ -8,19 +8,20 @@ mod audit;
 mod blame;
 mod compare;
 pub mod csv;
+mod expected;
 pub mod foreign;
 pub mod picture;
 pub mod tolerance;
 
-pub use blame::{Blame, Judged, visible_of};
+pub use blame::{Blame, Judged, visible_from, visible_of};
 pub use compare::{Answered, Difference, Kind};
 
 use crate::accel::BuildPreset;
 use crate::exact::Arbiter;
 use crate::pixel::{Pixel, Window};
-use crate::render::{Progress, VisibilityPath, see};
+use crate::render::{Answerer, Progress, VisibilityPath, expose};
 use crate::scene::Scene;
-use crate::shade::{Effects, shade};
+use crate::shade::Effects;
 use crate::visibility::{Counting, LevelCounts};
 
 /// What a check is asked for.
@@ -64,6 +65,10 @@ pub struct Report {
     pub tied_pixels: usize,
     /// Agreeing pixels that the arbiter looked at as well.
     pub audited_pixels: usize,
+    /// Pixels at which something is seen through a surface (caster's word).
+    pub layered_pixels: usize,
+    /// Those of them that the arbiter looked at, every surface in its order.
+    pub audited_layered_pixels: usize,
     /// Differences, by pixel, each with the arbiter's word.
     pub differences: Vec<Judged>,
     /// Largest radiance difference that was within tolerance, absolute, linear.
@@ -98,14 +103,16 @@ impl Report {
 /// Both paths' answers for the same window: caster first, then rasterizer.
 pub type BothAnswers = [Answered; 2];
 
-/// Asks both paths, each with counting and its own shading.
+/// Asks both paths, each with counting, its own layers and samples, and its own shading.
 pub fn answer(scene: &Scene, options: &CheckOptions, progress: &dyn Progress) -> BothAnswers {
     let window = options.window.unwrap_or(scene.camera.resolution().window());
     [VisibilityPath::Cast, VisibilityPath::Raster].map(|path| {
-        let buffer = see(scene, path, options.preset, window, Counting::All, progress).buffer;
-        progress.begin("shade", window.height() as usize);
-        let shaded = shade(scene, &buffer, Effects::of(scene), &|| progress.step());
-        Answered { buffer, radiance: shaded.radiance }
+        let answerer = Answerer::new(scene, path, options.preset, progress);
+        let buffer = answerer.see(scene, window, Counting::All, progress);
+        let layers = answerer.see_through(scene, &buffer, progress);
+        let effects = Effects::of(scene);
+        let exposed = expose(scene, &answerer, (&buffer, &layers), effects, progress);
+        Answered { buffer, layers, radiance: exposed.radiance, alpha: exposed.alpha }
     })
 }
 
@@ -138,8 +145,8 @@ pub fn judge(
         blame::judge_differences(scene, &arbiter, answers, comparison.differences, progress);
     // Audit agreeing pixels: an error common to both paths shows only here.
     let disputed: Vec<Pixel> = differences.iter().map(|judged| judged.difference.pixel).collect();
-    let sample = audit::sample(&cast.buffer, &disputed, options.audited_pixels);
-    differences.extend(audit::audit(&arbiter, answers, &sample, progress));
+    let sample = audit::sample(cast, &disputed, options.audited_pixels);
+    differences.extend(audit::audit(scene, &arbiter, answers, &sample, progress));
     let seen = |index: usize| {
         cast.buffer.visible[index].is_some() || raster.buffer.visible[index].is_some()
     };
@@ -149,6 +156,8 @@ pub fn judge(
         covered_pixels: (0..window.len()).filter(|&index| seen(index)).count(),
         tied_pixels: cast.buffer.visible.iter().flatten().filter(|visible| visible.tie).count(),
         audited_pixels: sample.len(),
+        layered_pixels: cast.layers.layered_pixels(),
+        audited_layered_pixels: sample.iter().filter(|&&p| cast.is_layered(p)).count(),
         differences,
         largest_tolerated_radiance: comparison.largest_tolerated_radiance,
         levels: [cast.buffer.levels, raster.buffer.levels],

@@ -40,7 +40,7 @@ pub struct Answer {
     pub cover: Cover,
 }
 
-/// The visible triangle at a sample.
+/// The visible triangle at a sample, or one that is seen through those before it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Surface {
     /// Which triangle.
@@ -111,6 +111,26 @@ impl<'a> Arbiter<'a> {
         contacts.iter().map(candidate).collect()
     }
 
+    /// Every triangle that covers a sample, nearest first as the tie rule orders them: what is seen
+    /// there one behind the other. The sample lies `steps` (columns, rows) of 1/256 pixel from the
+    /// pixel's centre.
+    pub fn surfaces(&self, pixel: Pixel, steps: [i32; 2]) -> Vec<Surface> {
+        let [x, y] = pixel.sample();
+        let moved = [x + f64::from(steps[0]) / 256.0, y + f64::from(steps[1]) / 256.0];
+        let ray = Ray::through(&self.scene.camera, moved);
+        let mut covering = self.contacts(&ray);
+        covering.retain(Contact::covers);
+        // A total order, in which those of one depth stand side by side.
+        covering.sort_by(|a, b| a.order(b, &ray));
+        let same_depth: Vec<bool> =
+            covering.windows(2).map(|pair| pair[0].is_as_deep_as(&pair[1])).collect();
+        let beside = |index: usize| {
+            index.checked_sub(1).is_some_and(|before| same_depth[before])
+                || same_depth.get(index).is_some_and(|&same| same)
+        };
+        covering.iter().enumerate().map(|(i, contact)| surface(contact, beside(i))).collect()
+    }
+
     /// Every answer at a pixel that is right under some tie rule.
     pub fn tie_answers(&self, pixel: Pixel) -> TieAnswers {
         let ray = Ray::through(&self.scene.camera, pixel.sample());
@@ -146,21 +166,26 @@ fn answer_of(ray: &Ray, contacts: &[Contact]) -> Answer {
         cover.signed -= i32::from(sign);
     }
     let visible = covering().min_by(|a, b| a.order(b, ray)).map(|nearest| {
-        let on_edge = nearest.edge_signs.contains(&0) && !mutant::is(Mutant::UnmarkedTies);
-        let front = (nearest.facing == Facing::Front) != mutant::is(Mutant::FacingFlipped);
         let beside = covering()
             .any(|other| other.triangle != nearest.triangle && other.is_as_deep_as(nearest));
-        let (t_lo, t_hi) = nearest.t_bounds();
-        Surface {
-            triangle: nearest.triangle,
-            facing: if front { Facing::Front } else { Facing::Back },
-            tie: on_edge || beside,
-            t_lo,
-            t_hi,
-            barycentric: nearest.barycentric(),
-        }
+        surface(nearest, beside)
     });
     Answer { visible, cover }
+}
+
+/// A covering triangle as an answer; `beside` tells whether another lies at the same depth.
+fn surface(contact: &Contact, beside: bool) -> Surface {
+    let on_edge = contact.edge_signs.contains(&0) && !mutant::is(Mutant::UnmarkedTies);
+    let front = (contact.facing == Facing::Front) != mutant::is(Mutant::FacingFlipped);
+    let (t_lo, t_hi) = contact.t_bounds();
+    Surface {
+        triangle: contact.triangle,
+        facing: if front { Facing::Front } else { Facing::Back },
+        tie: on_edge || beside,
+        t_lo,
+        t_hi,
+        barycentric: contact.barycentric(),
+    }
 }
 
 fn candidate(contact: &Contact) -> Candidate {

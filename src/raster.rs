@@ -17,6 +17,7 @@ mod dyadic;
 mod exact;
 mod exact_row;
 mod image_plane;
+mod layers;
 mod resolve;
 mod rows;
 mod span;
@@ -32,6 +33,7 @@ use bins::Bins;
 use bounds::Region;
 use image_plane::ImagePlane;
 
+pub use layers::rasterize_layers;
 pub use stability::{STANDARD_HALF_WIDTH, stability, stability_in_tiles};
 pub use watertight::{DEPTH_ERROR, SubpixelBits, rasterize_watertight};
 

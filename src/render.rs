@@ -1,26 +1,31 @@
 //! A frame: scene and options in, film out. The one place that knows both paths and shading.
 //!
-//! `see` answers which triangle is visible, `shade` gives it radiance, `develop` lays both out as
-//! the planes that files hold. Nothing is decided here: no predicate, no shading term, no format.
+//! `see` answers which triangle is visible, `expose` gives every pixel its radiance and alpha,
+//! `develop` lays both out as the planes that files hold. Nothing is decided here: no predicate, no shading term, no format.
 
 mod accuracy;
+mod answerer;
 mod describe;
 mod develop;
+pub mod expose;
 mod planes;
+mod progress;
+mod subsamples;
 pub mod visible;
 
 pub use accuracy::Accuracy;
+pub use answerer::Answerer;
 pub use describe::describe;
 pub use develop::develop;
+pub use expose::{Exposure, expose};
 pub use planes::{PlaneGroup, PlaneGroups, UnknownPlane};
+pub use progress::{Progress, Unwatched};
 
-use crate::accel::{Accelerator, BuildPreset};
-use crate::cast::cast;
+use crate::accel::BuildPreset;
 use crate::film::Film;
 use crate::pixel::Window;
-use crate::raster::{rasterize, rasterize_watertight};
 use crate::scene::Scene;
-use crate::shade::{Effects, Notes, shade};
+use crate::shade::{Effects, Notes};
 use crate::visibility::{Counting, LevelCounts, VisibilityBuffer};
 use std::time::{Duration, Instant};
 use visible::{Listing, VisibleTriangle, list_visible};
@@ -40,7 +45,8 @@ pub enum VisibilityPath {
 pub struct RenderOptions {
     /// Which path.
     pub path: VisibilityPath,
-    /// How visibility is decided. Only [`Accuracy::Exact`] exists on both paths: any other is
+    /// How visibility is decided. [`Accuracy::Watertight`] knows only the nearest surface and shows
+    /// it as opaque. Only [`Accuracy::Exact`] exists on both paths: any other is
     /// answered by the path that has it, whatever `path` says.
     pub accuracy: Accuracy,
     /// Which pixels; the whole frame when `None`.
@@ -69,11 +75,11 @@ impl Default for RenderOptions {
 /// Where the time of a frame went.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FrameTimes {
-    /// Building the BVH (zero on the raster path).
+    /// Building the BVH (next to nothing on the raster path).
     pub build: Duration,
     /// Finding what is visible.
     pub visibility: Duration,
-    /// Shading it.
+    /// Shading it, with all samples and what is seen through surfaces.
     pub shading: Duration,
     /// Laying out the film's planes.
     pub developing: Duration,
@@ -96,56 +102,50 @@ pub struct Frame {
     pub times: FrameTimes,
 }
 
-/// Receives the progress of a frame's stages: a stage begins with its number of steps, then each
-/// step is announced from any thread.
-pub trait Progress: Sync {
-    /// A stage of `steps` steps begins.
-    fn begin(&self, stage: &str, steps: usize);
-    /// One step of the current stage is done.
-    fn step(&self);
-}
-
-/// Progress that nobody watches.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Unwatched;
-
-impl Progress for Unwatched {
-    fn begin(&self, _stage: &str, _steps: usize) {}
-    fn step(&self) {}
-}
-
 /// Renders a frame.
 pub fn render(scene: &Scene, options: &RenderOptions, progress: &dyn Progress) -> Frame {
     let window = options.window.unwrap_or(scene.camera.resolution().window());
     let counting =
         if options.planes.has(PlaneGroup::Cover) { Counting::All } else { Counting::Nearest };
-    let seen = match options.accuracy {
-        Accuracy::Exact => see(scene, options.path, options.preset, window, counting, progress),
-        Accuracy::Watertight { subpixel_bits } => {
-            let started = Instant::now();
-            progress.begin("rasterize", window.tiles(crate::raster::TILE_SIDE).len());
-            let done = || progress.step();
-            let buffer = rasterize_watertight(scene, window, subpixel_bits, counting, &done);
-            Seen { buffer, build: Duration::ZERO, visibility: started.elapsed() }
-        }
-    };
     let started = Instant::now();
-    progress.begin("shade", window.height() as usize);
-    let shaded = shade(scene, &seen.buffer, Effects::of(scene), &|| progress.step());
+    let answerer = match options.accuracy {
+        Accuracy::Exact => Answerer::new(scene, options.path, options.preset, progress),
+        Accuracy::Watertight { subpixel_bits } => Answerer::Watertight(subpixel_bits),
+    };
+    let build = started.elapsed();
+    let started = Instant::now();
+    let buffer = answerer.see(scene, window, counting, progress);
+    let visibility = started.elapsed();
+    let started = Instant::now();
+    let layers = answerer.see_through(scene, &buffer, progress);
+    let effects = Effects::of(scene);
+    let exposure = expose(scene, &answerer, (&buffer, &layers), effects, progress);
     let shading = started.elapsed();
     let started = Instant::now();
-    let film = develop(scene, &seen.buffer, &shaded.radiance, &options.planes, options.accuracy);
+    let film = develop(
+        scene,
+        &buffer,
+        &exposure.radiance,
+        &exposure.alpha,
+        &options.planes,
+        options.accuracy,
+    );
     let developing = started.elapsed();
     let visible = options.listing.map(|listing| {
-        list_visible(scene, &seen.buffer, listing, options.path, options.preset, progress)
+        // What lies between the pixel centres is looked for exactly, however the frame was made.
+        let exact = match answerer {
+            Answerer::Watertight(_) => Answerer::Raster,
+            exact => exact,
+        };
+        list_visible(scene, &buffer, listing, &exact, progress)
     });
     Frame {
         film,
         visible,
-        covered_pixels: seen.buffer.covered_pixels(),
-        levels: seen.buffer.levels,
-        notes: shaded.notes,
-        times: FrameTimes { build: seen.build, visibility: seen.visibility, shading, developing },
+        covered_pixels: buffer.covered_pixels(),
+        levels: buffer.levels,
+        notes: exposure.notes,
+        times: FrameTimes { build, visibility, shading, developing },
     }
 }
 
@@ -154,7 +154,7 @@ pub fn render(scene: &Scene, options: &RenderOptions, progress: &dyn Progress) -
 pub struct Seen {
     /// The answer.
     pub buffer: VisibilityBuffer,
-    /// Time to build the BVH (zero on the raster path).
+    /// Time to build the BVH (next to nothing on the raster path).
     pub build: Duration,
     /// Time to find what is visible.
     pub visibility: Duration,
@@ -169,23 +169,10 @@ pub fn see(
     counting: Counting,
     progress: &dyn Progress,
 ) -> Seen {
-    match path {
-        VisibilityPath::Cast => {
-            let started = Instant::now();
-            progress.begin("build", 1);
-            let accelerator = Accelerator::build(&scene.mesh, preset);
-            progress.step();
-            let build = started.elapsed();
-            let started = Instant::now();
-            progress.begin("cast", window.tiles(crate::cast::TILE_SIDE).len());
-            let buffer = cast(scene, &accelerator, window, counting, &|| progress.step());
-            Seen { buffer, build, visibility: started.elapsed() }
-        }
-        VisibilityPath::Raster => {
-            let started = Instant::now();
-            progress.begin("rasterize", window.tiles(crate::raster::TILE_SIDE).len());
-            let buffer = rasterize(scene, window, counting, &|| progress.step());
-            Seen { buffer, build: Duration::ZERO, visibility: started.elapsed() }
-        }
-    }
+    let started = Instant::now();
+    let answerer = Answerer::new(scene, path, preset, progress);
+    let build = started.elapsed();
+    let started = Instant::now();
+    let buffer = answerer.see(scene, window, counting, progress);
+    Seen { buffer, build, visibility: started.elapsed() }
 }

@@ -15,6 +15,7 @@ pub mod material;
 pub mod obj;
 pub mod part;
 mod resolve;
+pub mod sampling;
 pub mod shapes;
 pub mod switches;
 pub mod texture;
@@ -28,6 +29,7 @@ use crate::mesh::{TriangleId, TriangleMesh};
 use camera::PinholeCamera;
 use light::Light;
 use material::Material;
+use sampling::SampleGrid;
 use std::ops::Range;
 use std::path::PathBuf;
 use switches::Switches;
@@ -40,6 +42,8 @@ pub struct Scene {
     pub camera: PinholeCamera,
     /// Radiance where nothing is visible.
     pub background: LinearRgb,
+    /// Samples per pixel for colour and alpha; every other plane is of the pixel centre.
+    pub samples: SampleGrid,
     /// All triangles, world space, in the order of ids.
     pub mesh: TriangleMesh,
     /// The meshes of the file, in order; their triangle ranges follow each other without gaps.
@@ -140,6 +144,7 @@ impl Scene {
         Self {
             camera,
             background: [0.0; 3],
+            samples: SampleGrid::CENTRE,
             mesh: TriangleMesh {
                 positions,
                 corners: (0..count).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
@@ -172,6 +177,11 @@ impl Scene {
     pub fn material_of(&self, id: TriangleId) -> (usize, &Material) {
         let index = self.triangle_materials[id.index()] as usize;
         (index, &self.materials[index])
+    }
+
+    /// Whether nothing is seen through a triangle.
+    pub fn is_opaque(&self, id: TriangleId) -> bool {
+        self.material_of(id).1.opacity == 1.0
     }
 
     /// Where a triangle was written: `file.obj:line`, or the shape and the triangle's number in it.

@@ -129,6 +129,61 @@ pub struct VisibilityBuffer {
     pub levels: LevelCounts,
 }
 
+/// What lies behind the nearest surface, for every pixel of a window whose nearest is see-through:
+/// all surfaces in exact depth order, ties by id, up to and including the first opaque one.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Layers {
+    /// Which pixels.
+    pub window: Window,
+    /// Per pixel, row by row, where its surfaces begin in `surfaces`; one more for the end.
+    starts: Vec<usize>,
+    surfaces: Vec<Visible>,
+}
+
+impl Layers {
+    /// Nothing lies behind anything.
+    pub fn none(window: Window) -> Self {
+        Self { window, starts: vec![0; window.len() + 1], surfaces: Vec::new() }
+    }
+
+    /// Puts tiles together that cover `window` exactly once; each comes with the surfaces of its
+    /// pixels, row by row. A tile in which nothing lies behind anything may come without any.
+    pub fn from_tiles(window: Window, tiles: &[(Window, Vec<Vec<Visible>>)]) -> Self {
+        let mut of_pixels: Vec<&[Visible]> = vec![&[]; window.len()];
+        for (tile, lists) in tiles {
+            for (index, list) in lists.iter().enumerate() {
+                of_pixels[window.index(tile.pixel(index))] = list;
+            }
+        }
+        let mut layers = Self { window, starts: vec![0], surfaces: Vec::new() };
+        for list in of_pixels {
+            layers.surfaces.extend_from_slice(list);
+            layers.starts.push(layers.surfaces.len());
+        }
+        layers
+    }
+
+    /// The surfaces behind the nearest at a row-major position of the window, nearest first.
+    pub fn of(&self, index: usize) -> &[Visible] {
+        &self.surfaces[self.starts[index]..self.starts[index + 1]]
+    }
+
+    /// Whether nothing lies behind anything.
+    pub fn is_empty(&self) -> bool {
+        self.surfaces.is_empty()
+    }
+
+    /// Number of pixels at which something lies behind a see-through surface.
+    pub fn layered_pixels(&self) -> usize {
+        self.starts.windows(2).filter(|pair| pair[0] < pair[1]).count()
+    }
+
+    /// The largest number of surfaces behind the nearest.
+    pub fn most(&self) -> usize {
+        self.starts.windows(2).map(|pair| pair[1] - pair[0]).max().unwrap_or(0)
+    }
+}
+
 /// One tile's part of a [`VisibilityBuffer`].
 #[derive(Clone, Debug)]
 pub struct VisibilityTile {

@@ -10,6 +10,7 @@ use crate::mesh::{TriangleId, TriangleMesh};
 use crate::mutant::{self, Mutant};
 use rayon::prelude::*;
 use std::cmp::Ordering;
+use std::collections::HashMap;
 use std::ops::Range;
 
 /// Longest run of concentric or nested boxes that the builder is given one by one.
@@ -32,6 +33,8 @@ pub(super) struct Entries {
     pub(super) bounds: Vec<Bounds>,
     /// Ranges of `triangles`, without gaps.
     pub(super) items: Vec<Range<u32>>,
+    /// The other ids of each folded triangle, ascending, under its lowest.
+    pub(super) copies: HashMap<TriangleId, Vec<TriangleId>>,
 }
 
 /// Orders, folds and groups the mesh's triangles.
@@ -66,6 +69,7 @@ pub(super) fn collect(mesh: &TriangleMesh) -> Entries {
     // Fold duplicates: the first of a run has the lowest id.
     let mut triangles: Vec<LeafTriangle> = Vec::with_capacity(order.len());
     let mut bounds: Vec<Bounds> = Vec::with_capacity(order.len());
+    let mut copies: HashMap<TriangleId, Vec<TriangleId>> = HashMap::new();
     for (_, index) in order {
         let (id, triangle_bounds) = ids[index as usize];
         let vertices = mesh.triangle(id);
@@ -73,6 +77,7 @@ pub(super) fn collect(mesh: &TriangleMesh) -> Entries {
             && bounds.last() == Some(&triangle_bounds)
             && canonical_bits(&last.vertices) == canonical_bits(&vertices)
         {
+            copies.entry(last.id).or_default().push(id);
             if mutant::is(Mutant::LastCopyKept) {
                 last.id = id;
             }
@@ -83,7 +88,7 @@ pub(super) fn collect(mesh: &TriangleMesh) -> Entries {
         bounds.push(triangle_bounds);
     }
     let items = group(&bounds);
-    Entries { triangles, bounds, items }
+    Entries { triangles, bounds, items, copies }
 }
 
 /// Every triangle of the mesh in the order of ids, nothing folded: for the linear scan.

@@ -53,6 +53,11 @@ impl Candidate {
         self.t[usize::from(!mutant::is(Mutant::PruneEqual))]
     }
 
+    /// Certain lower bound of t.
+    pub(super) fn nearest_t(&self) -> f64 {
+        self.t[0]
+    }
+
     /// The surface, computed once.
     pub(super) fn narrow(&mut self, ray: &Ray) -> Surface {
         *self.narrow.get_or_insert_with(|| {

@@ -1,13 +1,15 @@
 //! The audit: the arbiter looks at a sample of the pixels on which both paths agree.
 //!
 //! Half of the sample lies next to a boundary between two ids, where errors live; the other half
-//! anywhere. The seed is fixed, so a check is repeatable.
+//! anywhere. Where surfaces are see-through, a third lies on them. The seed is fixed, so a check is repeatable.
 
 use super::blame::{Blame, Judged, visibility_error};
-use super::compare::{Answered, Difference};
+use super::compare::{Answered, Difference, Kind, layers_differ};
+use super::expected;
 use crate::exact::Arbiter;
 use crate::pixel::Pixel;
 use crate::render::Progress;
+use crate::scene::Scene;
 use crate::visibility::VisibilityBuffer;
 use rayon::prelude::*;
 use std::collections::HashSet;
@@ -15,9 +17,11 @@ use std::collections::HashSet;
 /// Seed of the sample; any number does.
 const SEED: u64 = 0x7275_6563_6173_7431;
 
-/// Chooses up to `count` pixels that are not disputed, half of them beside an id boundary; all of
-/// them if the window has no more than `count`.
-pub(super) fn sample(buffer: &VisibilityBuffer, disputed: &[Pixel], count: usize) -> Vec<Pixel> {
+/// Chooses up to `count` pixels that are not disputed, half of them beside an id boundary, or a
+/// third there and a third where something is seen through a surface; all of them if the window
+/// has no more than `count`.
+pub(super) fn sample(answered: &Answered, disputed: &[Pixel], count: usize) -> Vec<Pixel> {
+    let buffer = &answered.buffer;
     let window = buffer.window;
     let mut taken: HashSet<Pixel> = disputed.iter().copied().collect();
     if count >= window.len() {
@@ -25,6 +29,8 @@ pub(super) fn sample(buffer: &VisibilityBuffer, disputed: &[Pixel], count: usize
     }
     let boundary: Vec<Pixel> =
         window.pixels().filter(|&pixel| is_beside_boundary(buffer, pixel)).collect();
+    let layered: Vec<Pixel> = window.pixels().filter(|&p| answered.is_layered(p)).collect();
+    let kinds = if layered.is_empty() { 2 } else { 3 };
     let mut random = SplitMix64(SEED);
     let mut chosen = Vec::new();
     // Drawing may repeat a pixel; four draws per wanted pixel are enough wherever there are
@@ -33,10 +39,10 @@ pub(super) fn sample(buffer: &VisibilityBuffer, disputed: &[Pixel], count: usize
         if chosen.len() >= count {
             break;
         }
-        let pixel = if draw % 2 == 0 && !boundary.is_empty() {
-            boundary[random.below(boundary.len())]
-        } else {
-            window.pixel(random.below(window.len()))
+        let pixel = match draw % kinds {
+            0 if !boundary.is_empty() => boundary[random.below(boundary.len())],
+            2 => layered[random.below(layered.len())],
+            _ => window.pixel(random.below(window.len())),
         };
         if taken.insert(pixel) {
             chosen.push(pixel);
@@ -48,6 +54,7 @@ pub(super) fn sample(buffer: &VisibilityBuffer, disputed: &[Pixel], count: usize
 
 /// Asks the arbiter about every pixel of the sample; both paths agree there, so an error is both's.
 pub(super) fn audit(
+    scene: &Scene,
     arbiter: &Arbiter<'_>,
     answers: &[Answered; 2],
     sample: &[Pixel],
@@ -59,7 +66,10 @@ pub(super) fn audit(
         .filter_map(|&pixel| {
             let exact = arbiter.answer(pixel);
             progress.step();
-            let errors = [0, 1].map(|i| visibility_error(&answers[i], pixel, &exact));
+            let errors = [0, 1].map(|i| {
+                visibility_error(&answers[i], pixel, &exact)
+                    .or_else(|| layers_error(scene, arbiter, &answers[i], pixel))
+            });
             let kind = errors[0].or(errors[1])?;
             Some(Judged {
                 difference: Difference { pixel, kind },
@@ -69,6 +79,22 @@ pub(super) fn audit(
             })
         })
         .collect()
+}
+
+/// Whether an answer that is right about the nearest surface is wrong about what lies behind it.
+fn layers_error(
+    scene: &Scene,
+    arbiter: &Arbiter<'_>,
+    answered: &Answered,
+    pixel: Pixel,
+) -> Option<Kind> {
+    let nearest = answered.buffer.at(pixel)?;
+    let found = answered.layers.of(answered.buffer.window.index(pixel));
+    let exact = match scene.is_opaque(nearest.triangle) {
+        true => Vec::new(),
+        false => expected::layers(scene, arbiter, pixel),
+    };
+    layers_differ(found, &exact).then_some(Kind::Layers)
 }
 
 /// Whether the pixel to the right or below shows another triangle.

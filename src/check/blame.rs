@@ -1,14 +1,18 @@
 //! Who is wrong: the arbiter is asked about every pixel at which the paths differ.
 
-use super::compare::{Answered, Difference, Kind, cover_at, visibility_difference};
+use super::compare::{
+    Answered, Difference, Kind, cover_at, largest_exponent, layers_differ, visibility_difference,
+};
+use super::expected;
 use super::tolerance::compare_radiance;
-use crate::exact::{Answer, Arbiter};
+use crate::color::LinearRgb;
+use crate::exact::{Answer, Arbiter, Surface};
 use crate::pixel::Pixel;
 use crate::render::Progress;
 use crate::scene::Scene;
-use crate::shade;
 use crate::visibility::{Cover, Level, Visible};
 use rayon::prelude::*;
+use std::collections::HashMap;
 
 /// Who is wrong at a pixel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -63,7 +67,12 @@ pub struct Judged {
 
 /// The arbiter's answer in the shape of a path's answer, so that both are compared alike.
 pub fn visible_of(answer: &Answer) -> (Option<Visible>, Cover) {
-    let visible = answer.visible.as_ref().map(|surface| Visible {
+    (answer.visible.as_ref().map(visible_from), answer.cover)
+}
+
+/// A surface of the arbiter in the shape of a path's.
+pub fn visible_from(surface: &Surface) -> Visible {
+    Visible {
         triangle: surface.triangle,
         facing: surface.facing,
         level: Level::Exact,
@@ -71,8 +80,7 @@ pub fn visible_of(answer: &Answer) -> (Option<Visible>, Cover) {
         barycentric: surface.barycentric,
         t_lo: surface.t_lo,
         t_hi: surface.t_hi,
-    });
-    (visible, answer.cover)
+    }
 }
 
 /// In what an answer differs from the exact one at a pixel, if it does.
@@ -94,11 +102,25 @@ pub(super) fn judge_differences(
     progress: &dyn Progress,
 ) -> Vec<Judged> {
     progress.begin("arbitrate", differences.len());
+    // Radiance and alpha hang on every sample of a pixel; they are shaded anew together.
+    let of_light =
+        |difference: &&Difference| matches!(difference.kind, Kind::Alpha | Kind::Radiance);
+    let pixels: Vec<Pixel> = differences.iter().filter(of_light).map(|d| d.pixel).collect();
+    let exposures = expected::exposures(scene, arbiter, &pixels);
+    let exposures: HashMap<Pixel, Exposed> = pixels.into_iter().zip(exposures).collect();
     differences
         .into_par_iter()
         .map(|difference| {
             let exact = arbiter.answer(difference.pixel);
-            let wrong = [0, 1].map(|i| is_wrong(scene, &answers[i], difference, &exact));
+            let truth = Truth {
+                exact: &exact,
+                layers: match difference.kind {
+                    Kind::Layers => expected::layers(scene, arbiter, difference.pixel),
+                    _ => Vec::new(),
+                },
+                exposed: exposures.get(&difference.pixel).copied(),
+            };
+            let wrong = [0, 1].map(|i| is_wrong(scene, &answers[i], difference, &truth));
             progress.step();
             let blame = Blame::of(wrong[0], wrong[1]);
             Judged { difference, blame, exact, found_by_audit: false }
@@ -106,22 +128,30 @@ pub(super) fn judge_differences(
         .collect()
 }
 
-/// Whether an answer is wrong at a disputed pixel. A dispute about radiance alone is settled by
-/// shading the exact surface.
-fn is_wrong(scene: &Scene, answered: &Answered, difference: Difference, exact: &Answer) -> bool {
-    if visibility_error(answered, difference.pixel, exact).is_some() {
+/// Radiance and alpha.
+type Exposed = (LinearRgb, f64);
+
+/// The exact answer at a disputed pixel, as far as the dispute needs it.
+struct Truth<'a> {
+    exact: &'a Answer,
+    layers: Vec<Visible>,
+    exposed: Option<Exposed>,
+}
+
+/// Whether an answer is wrong at a disputed pixel. A dispute about radiance or alpha alone is
+/// settled by shading the exact surfaces.
+fn is_wrong(scene: &Scene, answered: &Answered, difference: Difference, truth: &Truth<'_>) -> bool {
+    if visibility_error(answered, difference.pixel, truth.exact).is_some() {
         return true;
     }
-    if difference.kind != Kind::Radiance {
-        return false;
-    }
     let index = answered.buffer.window.index(difference.pixel);
-    let (ns, radiance) = match visible_of(exact).0 {
-        Some(visible) => (
-            scene.material_of(visible.triangle).1.ns,
-            shade::shade_visible(scene, difference.pixel, &visible, None),
-        ),
-        None => (0.0, scene.background),
-    };
-    !compare_radiance(answered.radiance[index], radiance, ns).1
+    match (difference.kind, truth.exposed) {
+        (Kind::Layers, _) => layers_differ(answered.layers.of(index), &truth.layers),
+        (Kind::Alpha, Some((_, alpha))) => answered.alpha[index] != alpha,
+        (Kind::Radiance, Some((radiance, _))) => {
+            let ns = largest_exponent(scene, answered, index);
+            !compare_radiance(answered.radiance[index], radiance, ns).1
+        }
+        _ => false,
+    }
 }

@@ -6,15 +6,27 @@ use super::tolerance::{compare_radiance, weights_agree};
 use crate::color::LinearRgb;
 use crate::pixel::Pixel;
 use crate::scene::Scene;
-use crate::visibility::{Cover, VisibilityBuffer, Visible};
+use crate::scene::sampling::SampleGrid;
+use crate::visibility::{Cover, Layers, VisibilityBuffer, Visible};
 
 /// One path's answer, shaded.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Answered {
     /// What is visible, with cover counts.
     pub buffer: VisibilityBuffer,
+    /// What lies behind the see-through surfaces of the buffer.
+    pub layers: Layers,
     /// Radiance per pixel of the buffer.
     pub radiance: Vec<LinearRgb>,
+    /// Alpha per pixel of the buffer.
+    pub alpha: Vec<f64>,
+}
+
+impl Answered {
+    /// Whether something is seen through the nearest surface at a pixel.
+    pub fn is_layered(&self, pixel: Pixel) -> bool {
+        !self.layers.of(self.buffer.window.index(pixel)).is_empty()
+    }
 }
 
 /// The first thing in which two answers differ at a pixel; later ones follow from it.
@@ -36,13 +48,17 @@ pub enum Kind {
     Depth,
     /// Their corner weights differ.
     Weights,
+    /// They see different surfaces behind a see-through one, or the same ones differently.
+    Layers,
+    /// Their alpha differs: at some sample they see different surfaces.
+    Alpha,
     /// Their radiance differs.
     Radiance,
 }
 
 impl Kind {
     /// Every kind, in the order in which they are looked for.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 11] = [
         Self::Coverage,
         Self::Surface,
         Self::Facing,
@@ -51,6 +67,8 @@ impl Kind {
         Self::Tie,
         Self::Depth,
         Self::Weights,
+        Self::Layers,
+        Self::Alpha,
         Self::Radiance,
     ];
 
@@ -65,6 +83,8 @@ impl Kind {
             Self::Tie => "tie",
             Self::Depth => "depth",
             Self::Weights => "weights",
+            Self::Layers => "layers",
+            Self::Alpha => "alpha",
             Self::Radiance => "radiance",
         }
     }
@@ -98,9 +118,11 @@ pub(super) fn compare(scene: &Scene, a: &Answered, b: &Answered) -> Comparison {
             (a.buffer.visible[index].as_ref(), cover_at(&a.buffer, index)),
             (b.buffer.visible[index].as_ref(), cover_at(&b.buffer, index)),
         )
+        .or_else(|| layers_differ(a.layers.of(index), b.layers.of(index)).then_some(Kind::Layers))
+        // Both blend the same surfaces of the same samples in one order.
+        .or_else(|| (a.alpha[index] != b.alpha[index]).then_some(Kind::Alpha))
         .or_else(|| {
-            let ns = a.buffer.visible[index]
-                .map_or(0.0, |visible| scene.material_of(visible.triangle).1.ns);
+            let ns = largest_exponent(scene, a, index);
             let (largest, within) = compare_radiance(a.radiance[index], b.radiance[index], ns);
             if within {
                 largest_tolerated_radiance = largest_tolerated_radiance.max(largest);
@@ -112,6 +134,25 @@ pub(super) fn compare(scene: &Scene, a: &Answered, b: &Answered) -> Comparison {
         differences.extend(kind.map(|kind| Difference { pixel, kind }));
     }
     Comparison { differences, largest_tolerated_radiance }
+}
+
+/// The largest specular exponent that the radiance of a pixel can hold.
+pub(super) fn largest_exponent(scene: &Scene, answered: &Answered, index: usize) -> f64 {
+    if scene.samples != SampleGrid::CENTRE {
+        return scene.materials.iter().fold(0.0, |largest, material| material.ns.max(largest));
+    }
+    let nearest = answered.buffer.visible[index].iter();
+    let surfaces = nearest.chain(answered.layers.of(index));
+    surfaces.fold(0.0, |largest, surface| scene.material_of(surface.triangle).1.ns.max(largest))
+}
+
+/// Whether two answers about the surfaces behind the nearest differ.
+pub(super) fn layers_differ(a: &[Visible], b: &[Visible]) -> bool {
+    a.len() != b.len()
+        || a.iter().zip(b).any(|(a, b)| {
+            (a.triangle, a.facing) != (b.triangle, b.facing)
+                || evaluation_difference(a, b).is_some()
+        })
 }
 
 /// The cover counts at a pixel of a buffer that was asked for them.

@@ -7,6 +7,7 @@ use truecast::check::foreign::ids::NOT_FINITE;
 use truecast::pixel::{MAX_SIDE, Resolution};
 use truecast::raster::SubpixelBits;
 use truecast::render::visible::SubsampleGrid;
+use truecast::scene::sampling::SampleGrid;
 
 /// Casts one ray per pixel at a scene of triangle meshes, and proves which triangle is visible.
 #[derive(Debug, Parser)]
@@ -57,6 +58,10 @@ pub(super) struct RenderArguments {
     /// Render at this size instead of the scene's
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(super) size: Option<Resolution>,
+    /// NxN samples per pixel for colour and alpha instead of the scene's, N from 1 to 16; every other
+    /// plane is of the pixel centre
+    #[arg(long, value_name = "N", value_parser = parse_samples)]
+    pub(super) samples: Option<SampleGrid>,
     /// Render only columns X0..X1 and rows Y0..Y1 (X1 and Y1 excluded)
     #[arg(long, value_name = "X0,Y0,X1,Y1", value_parser = parse_crop)]
     pub(super) crop: Option<[u32; 4]>,
@@ -106,6 +111,9 @@ pub(super) struct CheckArguments {
     /// Check at this size instead of the scene's
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(super) size: Option<Resolution>,
+    /// Compare the colour of NxN samples per pixel instead of the scene's, N from 1 to 16
+    #[arg(long, value_name = "N", value_parser = parse_samples)]
+    pub(super) samples: Option<SampleGrid>,
     /// Number of threads; 0 is one per core
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) threads: usize,
@@ -121,10 +129,10 @@ pub(super) struct CheckArguments {
 #[command(next_help_heading = "Another program's picture, held against the exact answer")]
 pub(super) struct ForeignArguments {
     /// Its triangle ids: .npy, .exr (channel `id.prim`, or the only UINT one) or .png
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["pixel", "audit"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["pixel", "audit", "samples"])]
     pub(super) ids: Option<PathBuf>,
     /// Its depths: .exr or .npy; along the view axis, or ray parameters if the channel is named `t`
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["pixel", "audit"])]
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["pixel", "audit", "samples"])]
     pub(super) depth: Option<PathBuf>,
     /// EXR channel of the ids
     #[arg(long, value_name = "NAME", requires = "ids")]
@@ -228,6 +236,12 @@ fn parse_size(text: &str) -> Result<Resolution, String> {
     let (width, height) = text.split_once(['x', 'X']).ok_or_else(wanted)?;
     let [width, height] = [width, height].map(|side| side.trim().parse::<u32>().ok());
     width.zip(height).and_then(|(width, height)| Resolution::new(width, height)).ok_or_else(wanted)
+}
+
+fn parse_samples(text: &str) -> Result<SampleGrid, String> {
+    let side = text.trim().parse().ok();
+    side.and_then(SampleGrid::new)
+        .ok_or_else(|| format!("expected a whole number from 1 to {}", SampleGrid::MOST))
 }
 
 fn parse_subpixel(text: &str) -> Result<SubsampleGrid, String> {

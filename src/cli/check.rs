@@ -14,6 +14,7 @@ use truecast::check::{Blame, BothAnswers, CheckOptions, Judged, Kind, Outcome, R
 use truecast::film::encode_picture;
 use truecast::mesh::TriangleId;
 use truecast::pixel::Window;
+use truecast::scene::sampling::SampleGrid;
 use truecast::scene::{Overrides, Scene};
 
 /// Differences that the summary names one by one, each with its way to look closer.
@@ -66,8 +67,14 @@ pub(super) fn run(arguments: &CheckArguments, writing: &Writing) -> Result<u8, F
 }
 
 fn check_one<'a>(arguments: &CheckArguments, path: &'a Path) -> Result<Checked<'a>, Failure> {
-    let scene =
-        Scene::load(path, &Overrides { resolution: arguments.size, ..Overrides::default() })?;
+    let scene = Scene::load(
+        path,
+        &Overrides {
+            resolution: arguments.size,
+            samples: arguments.samples,
+            ..Overrides::default()
+        },
+    )?;
     if !arguments.quiet {
         output::print_warnings(&scene.warnings);
     }
@@ -148,6 +155,17 @@ fn summary(checked: &Checked<'_>) -> String {
          {} agreeing pixels audited in exact arithmetic\n",
         report.audited_pixels,
     );
+    if checked.scene.samples != SampleGrid::CENTRE {
+        let side = checked.scene.samples.side();
+        text += &format!("  radiance and alpha are means over {side}x{side} samples per pixel\n");
+    }
+    if report.layered_pixels > 0 {
+        text += &format!(
+            "  {} pixels see through a surface; compared there: every surface in its order; {} of \
+             them audited\n",
+            report.layered_pixels, report.audited_layered_pixels,
+        );
+    }
     text += &format!(
         "  decisions f32/f64/exact: caster {}/{}/{}, rasterizer {}/{}/{}; \
          largest radiance difference {:.1e}; {:.2} s\n",
@@ -230,8 +248,14 @@ fn pixel_lines(checked: &Checked<'_>) -> String {
             ),
         };
         text += &format!(
-            "  {name}: {seen}; cover {}, signed {}; radiance {:?}\n",
-            cover.0, cover.1, answered.radiance[0]
+            "  {name}: {seen}; cover {}, signed {}; {}radiance {:?}\n",
+            cover.0,
+            cover.1,
+            match answered.layers.of(0).len() {
+                0 => String::new(),
+                count => format!("{count} surfaces behind it, alpha {:?}; ", answered.alpha[0]),
+            },
+            answered.radiance[0]
         );
     }
     text
@@ -259,6 +283,9 @@ fn document(checked: &Checked<'_>) -> Value {
         "covered_pixels": report.covered_pixels,
         "tied_pixels": report.tied_pixels,
         "audited_pixels": report.audited_pixels,
+        "layered_pixels": report.layered_pixels,
+        "audited_layered_pixels": report.audited_layered_pixels,
+        "samples": checked.scene.samples.side(),
         "differences": report.differences.len(),
         "by_kind": by_kind,
         "by_blame": by_blame,

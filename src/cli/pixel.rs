@@ -8,6 +8,7 @@ use serde_json::{Value, json};
 use truecast::check::visible_of;
 use truecast::exact::{Answer, Arbiter, Candidate};
 use truecast::pixel::Pixel;
+use truecast::render::expose::Blend;
 use truecast::scene::{Overrides, Scene};
 use truecast::shade::{Terms, terms};
 use truecast::visibility::Visible;
@@ -17,6 +18,8 @@ struct Explained {
     pixel: Pixel,
     direction: [f64; 3],
     candidates: Vec<Candidate>,
+    /// Per candidate, the share of it in the pixel's radiance.
+    shares: Vec<f64>,
     answer: Answer,
     visible: Option<(Visible, Terms)>,
 }
@@ -57,7 +60,25 @@ fn explain(scene: &Scene, pixel: Pixel) -> Explained {
     // Exact: the camera is on its lattice.
     let direction =
         std::array::from_fn(|k| camera.d0()[k] + x * camera.dx()[k] + y * camera.dy()[k]);
-    Explained { pixel, direction, candidates: arbiter.candidates(pixel), answer, visible }
+    let candidates = arbiter.candidates(pixel);
+    let shares = shares(scene, &candidates);
+    Explained { pixel, direction, candidates, shares, answer, visible }
+}
+
+/// T·o of each candidate, front to back; 0 for one that does not cover the sample.
+fn shares(scene: &Scene, candidates: &[Candidate]) -> Vec<f64> {
+    let mut blend = Blend::START;
+    let mut share = |candidate: &Candidate| {
+        let opacity = opacity(scene, candidate);
+        let share = blend.share(opacity);
+        blend.add([0.0; 3], opacity);
+        share
+    };
+    candidates.iter().map(|c| if c.covers { share(c) } else { 0.0 }).collect()
+}
+
+fn opacity(scene: &Scene, candidate: &Candidate) -> f64 {
+    scene.material_of(candidate.triangle).1.opacity
 }
 
 fn text(arguments: &PixelArguments, scene: &Scene, explained: &Explained) -> String {
@@ -83,16 +104,19 @@ fn text(arguments: &PixelArguments, scene: &Scene, explained: &Explained) -> Str
                  tie rule):\n";
     }
     let winner = explained.visible.as_ref().map(|(visible, _)| visible.triangle);
-    for candidate in &explained.candidates {
+    let all_opaque = explained.candidates.iter().all(|c| scene.is_opaque(c.triangle));
+    for (candidate, &share) in explained.candidates.iter().zip(&explained.shares) {
         let mark = if Some(candidate.triangle) == winner {
             "visible"
+        } else if share > 0.0 {
+            "seen through"
         } else if candidate.covers {
             "hidden"
         } else {
             "only touched"
         };
         text += &format!(
-            "  triangle {} ({}): {mark}; facing {:+}, edges {} -> {}, t in [{:?}, {:?}]\n",
+            "  triangle {} ({}): {mark}; facing {:+}, edges {} -> {}, t in [{:?}, {:?}]{}\n",
             candidate.triangle.get(),
             scene.describe_source(candidate.triangle),
             candidate.facing.sign(),
@@ -100,6 +124,10 @@ fn text(arguments: &PixelArguments, scene: &Scene, explained: &Explained) -> Str
             signs(candidate.moved_signs),
             candidate.t_lo,
             candidate.t_hi,
+            match all_opaque {
+                true => String::new(),
+                false => format!("; opacity {:?}, share {share:?}", opacity(scene, candidate)),
+            },
         );
     }
     match &explained.visible {
@@ -166,7 +194,8 @@ fn document(arguments: &PixelArguments, scene: &Scene, explained: &Explained) ->
     let candidates: Vec<_> = explained
         .candidates
         .iter()
-        .map(|candidate| {
+        .zip(&explained.shares)
+        .map(|(candidate, share)| {
             json!({
                 "id": candidate.triangle.get(),
                 "source": scene.describe_source(candidate.triangle),
@@ -177,6 +206,8 @@ fn document(arguments: &PixelArguments, scene: &Scene, explained: &Explained) ->
                 "t_lo": candidate.t_lo,
                 "t_hi": candidate.t_hi,
                 "weights": candidate.barycentric.0,
+                "opacity": opacity(scene, candidate),
+                "share": share,
             })
         })
         .collect();

@@ -18,6 +18,7 @@ use truecast::render::{
     Accuracy, Frame, PlaneGroup, PlaneGroups, RenderOptions, VisibilityPath, render,
 };
 use truecast::scene::{Overrides, Scene};
+use truecast::shade::Effects;
 
 /// The scene that is rendered when none is named.
 const DEFAULT_SCENE: &str = include_str!("../../scenes/default.toml");
@@ -43,6 +44,7 @@ pub(super) fn run(arguments: &RenderArguments, writing: &Writing) -> Result<u8, 
     if !arguments.quiet {
         output::print_warnings(&scene.warnings);
     }
+    refuse_opacity(accuracy, &scene)?;
     let options = RenderOptions {
         path: match arguments.path {
             PathWord::Cast => VisibilityPath::Cast,
@@ -84,6 +86,7 @@ pub(super) fn run(arguments: &RenderArguments, writing: &Writing) -> Result<u8, 
 fn load(arguments: &RenderArguments) -> Result<Scene, Failure> {
     let overrides = Overrides {
         resolution: arguments.size,
+        samples: arguments.samples,
         only_lights: arguments.light.clone(),
         ambient_only: arguments.ambient_only,
     };
@@ -110,6 +113,18 @@ fn accuracy(arguments: &RenderArguments) -> Result<Accuracy, Failure> {
             "--accuracy watertight exists on --path raster, not on --path cast".to_owned(),
         )),
     }
+}
+
+/// The watertight rasterizer has no order behind the nearest surface: it draws nothing see-through.
+fn refuse_opacity(accuracy: Accuracy, scene: &Scene) -> Result<(), Failure> {
+    if accuracy == Accuracy::Exact || !Effects::of(scene).has(Effects::OPACITY) {
+        return Ok(());
+    }
+    Err(Failure::usage(format!(
+        "--accuracy {} finds only the nearest surface, and this scene has materials with `opacity` \
+         below 1: use --accuracy exact",
+        accuracy.name()
+    )))
 }
 
 /// The output files, each with its format, refused early when they cannot be written.

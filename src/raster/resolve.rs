@@ -35,7 +35,8 @@ pub(super) fn resolve(
     visible
 }
 
-fn answer(pixel: Pixel, fragment: &Fragment, triangle: &ExactTriangle) -> Visible {
+/// The answer for one fragment.
+pub(super) fn answer(pixel: Pixel, fragment: &Fragment, triangle: &ExactTriangle) -> Visible {
     // t is off by at most 6u; the factors' own roundings and products take 2u more.
     let t = triangle.t_at(pixel);
     let on_edge = fragment.on_edge && !mutant::is(Mutant::UnmarkedTies);

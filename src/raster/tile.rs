@@ -32,23 +32,36 @@ pub(super) struct Fragment {
     /// set if and only if two triangles share the least t.
     pub(super) same_depth: bool,
     /// Certain bounds of 1/t, up to the frame's common factor.
-    inverse_depth: [f64; 2],
+    pub(super) inverse_depth: [f64; 2],
 }
 
 /// How a triangle covers a sample.
 #[derive(Clone, Copy)]
-struct Coverage {
+pub(super) struct Coverage {
     exact: bool,
     on_edge: bool,
 }
 
+/// What becomes of the fragments of a tile.
+pub(super) trait Keep {
+    /// A triangle covers the sample at `index` of the tile.
+    fn keep(tile: &mut Tile<'_, Self>, index: usize, rows: &TriangleRows, fragment: Fragment)
+    where
+        Self: Sized;
+}
+
 /// A tile at work.
-struct Tile<'a> {
-    window: Window,
-    exact: ExactStage<'a>,
+pub(super) struct Tile<'a, K> {
+    pub(super) window: Window,
+    pub(super) exact: ExactStage<'a>,
+    pub(super) kept: K,
+    levels: LevelCounts,
+}
+
+/// The nearest fragment of each pixel, and counts of all where they are asked for.
+struct Nearest {
     fragments: Vec<Option<Fragment>>,
     cover: Vec<Cover>,
-    levels: LevelCounts,
 }
 
 /// Everything visible in one tile.
@@ -59,29 +72,29 @@ pub(super) fn rasterize_tile(
     counting: Counting,
     tile_window: Window,
 ) -> VisibilityTile {
-    let VisibilityTile { window: tile_window, cover, levels, .. } =
+    let VisibilityTile { window: tile_window, cover, .. } =
         VisibilityTile::empty(tile_window, counting);
-    let mut tile = Tile {
-        window: tile_window,
-        exact: ExactStage::new(plane, mesh),
-        fragments: vec![None; tile_window.len()],
-        cover,
-        levels,
-    };
+    let nearest = Nearest { fragments: vec![None; tile_window.len()], cover };
+    let mut tile = Tile::new(tile_window, ExactStage::new(plane, mesh), nearest);
     for candidate in bins.candidates(tile_window) {
         tile.scan(&candidate);
     }
     VisibilityTile {
         window: tile_window,
-        visible: resolve(tile_window, &tile.fragments, &mut tile.exact),
-        cover: tile.cover,
+        visible: resolve(tile_window, &tile.kept.fragments, &mut tile.exact),
+        cover: tile.kept.cover,
         levels: tile.levels,
     }
 }
 
-impl Tile<'_> {
+impl<'a, K: Keep> Tile<'a, K> {
+    /// A tile before its first triangle.
+    pub(super) fn new(window: Window, exact: ExactStage<'a>, kept: K) -> Self {
+        Self { window, exact, kept, levels: LevelCounts::default() }
+    }
+
     /// Tests every pixel that the triangle can cover.
-    fn scan(&mut self, candidate: &Candidate) {
+    pub(super) fn scan(&mut self, candidate: &Candidate) {
         let rows = &candidate.rows;
         let Some(pixels) = candidate.pixels.intersection(Rectangle::of(self.window)) else {
             return;
@@ -169,23 +182,31 @@ impl Tile<'_> {
         Some(Coverage { exact: true, on_edge })
     }
 
-    /// Counts a covering triangle and keeps it if it is the nearest.
+    /// Hands on that a triangle covers a sample.
     #[inline]
     fn keep(&mut self, rows: &TriangleRows, pixel: Pixel, coverage: Coverage) {
-        let index = self.window.index(pixel);
-        if let Some(cover) = self.cover.get_mut(index) {
-            cover.crossed += 1;
-            cover.signed += if mutant::is(Mutant::UnsignedCount) { 1 } else { rows.volume_sign };
-        }
         let [x, y] = pixel.sample();
-        let mut fragment = Fragment {
+        let fragment = Fragment {
             triangle: rows.id,
             exact: coverage.exact,
             on_edge: coverage.on_edge,
             same_depth: false,
             inverse_depth: rows.inverse_depth(x, y),
         };
-        if let Some(nearest) = self.fragments[index] {
+        K::keep(self, self.window.index(pixel), rows, fragment);
+    }
+}
+
+impl Keep for Nearest {
+    /// Counts a covering triangle and keeps it if it is the nearest.
+    #[inline]
+    fn keep(tile: &mut Tile<'_, Self>, index: usize, rows: &TriangleRows, fragment: Fragment) {
+        let mut fragment = fragment;
+        if let Some(cover) = tile.kept.cover.get_mut(index) {
+            cover.crossed += 1;
+            cover.signed += if mutant::is(Mutant::UnsignedCount) { 1 } else { rows.volume_sign };
+        }
+        if let Some(nearest) = tile.kept.fragments[index] {
             if planted_reject(&fragment, &nearest) {
                 return;
             }
@@ -193,25 +214,28 @@ impl Tile<'_> {
             let [low, high] = fragment.inverse_depth;
             let [nearest_low, nearest_high] = nearest.inverse_depth;
             if high < nearest_low {
-                self.levels.double += 1;
+                tile.levels.double += 1;
                 return;
             }
             if low > nearest_high {
-                self.levels.double += 1;
+                tile.levels.double += 1;
             } else {
-                self.levels.exact += 1;
-                if !self.settle(&mut fragment, nearest, pixel) {
+                tile.levels.exact += 1;
+                if !tile.settle(&mut fragment, nearest, index) {
                     return;
                 }
             }
         }
-        self.fragments[index] = Some(fragment);
+        tile.kept.fragments[index] = Some(fragment);
     }
+}
 
+impl Tile<'_, Nearest> {
     /// Orders two triangles whose depth intervals overlap. True where the candidate survives; marks
     /// the survivor where both have the same depth.
     #[cold]
-    fn settle(&mut self, candidate: &mut Fragment, nearest: Fragment, pixel: Pixel) -> bool {
+    fn settle(&mut self, candidate: &mut Fragment, nearest: Fragment, index: usize) -> bool {
+        let pixel = self.window.pixel(index);
         let order = self.exact.depth_order(candidate.triangle, nearest.triangle, pixel);
         // Only triangles with V ≠ 0 cover, so that there always is an order.
         let Some(order) = order else { return false };
@@ -228,8 +252,7 @@ impl Tile<'_> {
         };
         if order.at_sample == Ordering::Equal {
             candidate.same_depth = true;
-            let index = self.window.index(pixel);
-            if let Some(nearest) = &mut self.fragments[index] {
+            if let Some(nearest) = &mut self.kept.fragments[index] {
                 nearest.same_depth = true;
             }
         }

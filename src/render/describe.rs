@@ -6,6 +6,7 @@
 use super::Accuracy;
 use crate::scene::Scene;
 use crate::scene::hash::content_hash;
+use crate::scene::sampling::SampleGrid;
 use crate::shade;
 use serde_json::{Value, json};
 
@@ -35,6 +36,9 @@ pub fn describe(scene: &Scene, accuracy: Accuracy) -> Value {
         "switches": scene.switches.table(),
         "effects": effects,
     });
+    if scene.samples != SampleGrid::CENTRE {
+        document["samples"] = json!(scene.samples.side());
+    }
     if let Accuracy::Watertight { subpixel_bits } = accuracy {
         document["subpixel_bits"] = json!(subpixel_bits.get());
     }

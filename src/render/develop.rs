@@ -1,6 +1,6 @@
-//! Lays visibility and radiance out as the named planes of a film.
+//! Lays visibility, radiance and alpha out as the named planes of a film.
 //!
-//! Where nothing is visible, ids are 0xFFFF_FFFF, colour is the background and every other plane
+//! Where nothing is visible at a pixel's centre, ids are 0xFFFF_FFFF and every plane but colour
 //! is 0 (no surface lies at depth 0), except `stable`, which speaks of nothing as of a triangle. Values are rounded to f32 once, here.
 
 use super::{Accuracy, PlaneGroup, PlaneGroups, describe};
@@ -15,13 +15,14 @@ use crate::visibility::{VisibilityBuffer, Visible};
 /// "Nothing is visible" in id planes.
 const NOTHING: u32 = u32::MAX;
 
-/// Fills the planes that are asked for. `radiance` has one value per pixel of the buffer, and
-/// `accuracy` says how the buffer was found.
+/// Fills the planes that are asked for. `radiance` and `alpha` have one value per pixel of the
+/// buffer, and `accuracy` says how the buffer was found.
 /// Texture coordinates are left out of a scene that has none, unless only they are asked for.
 pub fn develop(
     scene: &Scene,
     buffer: &VisibilityBuffer,
     radiance: &[LinearRgb],
+    alpha: &[f64],
     groups: &PlaneGroups,
     accuracy: Accuracy,
 ) -> Film {
@@ -31,7 +32,7 @@ pub fn develop(
             && scene.mesh.uvs.is_empty()
             && groups.iter().count() > 1;
         if !is_absent {
-            let samples = fill(scene, buffer, radiance, group);
+            let samples = fill(scene, buffer, (radiance, alpha), group);
             for (name, samples) in group.planes().iter().zip(samples) {
                 planes.push(Plane { name: (*name).to_owned(), samples });
             }
@@ -49,7 +50,7 @@ pub fn develop(
 fn fill(
     scene: &Scene,
     buffer: &VisibilityBuffer,
-    radiance: &[LinearRgb],
+    (radiance, alpha): (&[LinearRgb], &[f64]),
     group: PlaneGroup,
 ) -> Vec<Samples> {
     let surface = |index: usize, visible: &Visible| {
@@ -59,8 +60,8 @@ fn fill(
         PlaneGroup::Color => {
             let channel =
                 |k: usize| Samples::Float(radiance.iter().map(|rgb| rgb[k] as f32).collect());
-            let alpha = floats(buffer, |_, _| [1.0]);
-            [channel(0), channel(1), channel(2)].into_iter().chain(alpha).collect()
+            let alpha = Samples::Float(alpha.iter().map(|&share| share as f32).collect());
+            vec![channel(0), channel(1), channel(2), alpha]
         }
         PlaneGroup::Depth => floats(buffer, |_, visible| [visible.t() * scene.camera.z_per_t()]),
         PlaneGroup::RayParameter => floats(buffer, |_, visible| [visible.t()]),

@@ -5,14 +5,13 @@
 //! so every sub-sample is as exact as a centre. What a grid finds is a lower bound: a sliver may
 //! lie between sub-samples too. No radiance is computed from sub-samples.
 
-use super::{Progress, VisibilityPath};
-use crate::accel::{Accelerator, BuildPreset};
-use crate::cast::cast;
+use super::subsamples::for_each_subsample;
+use super::{Answerer, Progress};
 use crate::mesh::TriangleId;
 use crate::pixel::{Pixel, Window};
-use crate::raster::rasterize;
 use crate::scene::Scene;
-use crate::visibility::{Counting, VisibilityBuffer};
+use crate::scene::sampling::SampleGrid;
+use crate::visibility::VisibilityBuffer;
 use std::borrow::Cow;
 use std::collections::HashMap;
 use std::fmt::Write;
@@ -20,9 +19,6 @@ use std::fmt::Write;
 /// Column names of [`to_csv`]. `mesh` is the position of the mesh in the scene file, `source` is
 /// `file.obj:line`. `subsamples` is empty when none were taken.
 const HEADER: &str = "id,mesh,source,pixels,subsamples,first_x,first_y\n";
-
-/// Rows that are answered at once while sub-sampling, so that no second full buffer is held.
-const BAND_ROWS: u32 = 256;
 
 /// How finely visible triangles are looked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,25 +33,25 @@ pub enum Listing {
 /// ((m + ½)/N, (n + ½)/N). They are multiples of 1/256 pixel, as exact samples must be, and none
 /// is the pixel's centre.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct SubsampleGrid(u32);
+pub struct SubsampleGrid(SampleGrid);
 
 impl SubsampleGrid {
     /// The grid of `side` × `side`; `None` unless `side` is 2, 4, 8 or 16.
     pub const fn new(side: u32) -> Option<Self> {
-        if matches!(side, 2 | 4 | 8 | 16) { Some(Self(side)) } else { None }
+        match SampleGrid::new(side) {
+            Some(grid) if side > 1 && side.is_power_of_two() => Some(Self(grid)),
+            _ => None,
+        }
     }
 
     /// N.
     pub const fn side(self) -> u32 {
-        self.0
+        self.0.side()
     }
 
     /// Where the sub-samples lie, from the pixel's centre, in 1/256 pixel.
     pub fn offsets(self) -> impl Iterator<Item = [i32; 2]> {
-        // (m + ½)/N − ½ in 256ths; N divides 128.
-        let side = self.0 as i32;
-        let offset = move |m: i32| (2 * m + 1) * 128 / side - 128;
-        (0..side).flat_map(move |n| (0..side).map(move |m| [offset(m), offset(n)]))
+        self.0.offsets()
     }
 }
 
@@ -72,14 +68,13 @@ pub struct VisibleTriangle {
     pub first: Pixel,
 }
 
-/// Lists the triangles that `buffer`, the answer of `path` for some window, and the sub-samples of
+/// Lists the triangles that `buffer`, the answer of a path for some window, and the sub-samples of
 /// the same window see, by id.
 pub fn list_visible(
     scene: &Scene,
     buffer: &VisibilityBuffer,
     listing: Listing,
-    path: VisibilityPath,
-    preset: BuildPreset,
+    answerer: &Answerer,
     progress: &dyn Progress,
 ) -> Vec<VisibleTriangle> {
     let window = buffer.window;
@@ -87,27 +82,10 @@ pub fn list_visible(
     centres.add(buffer, window);
     let mut subsamples = Tally::default();
     if let Listing::Subsamples(grid) = listing {
-        let accelerator = match path {
-            VisibilityPath::Cast => Some(Accelerator::build(&scene.mesh, preset)),
-            VisibilityPath::Raster => None,
-        };
-        let bands = bands(scene, window, BAND_ROWS);
-        let side = grid.side() as usize;
-        progress.begin("subpixel", side * side * bands.len());
-        let mut shifted = scene.clone();
-        for offset in grid.offsets() {
-            shifted.camera = scene.camera.shifted(offset);
-            for &band in &bands {
-                let answer = match &accelerator {
-                    Some(accelerator) => {
-                        cast(&shifted, accelerator, band, Counting::Nearest, &|| ())
-                    }
-                    None => rasterize(&shifted, band, Counting::Nearest, &|| ()),
-                };
-                subsamples.add(&answer, window);
-                progress.step();
-            }
-        }
+        let stage = ("subpixel", progress);
+        for_each_subsample(scene, answerer, window, grid.offsets(), stage, |_, answer| {
+            subsamples.add(answer, window);
+        });
     }
     let mut triangles: Vec<TriangleId> =
         centres.seen.keys().chain(subsamples.seen.keys()).copied().collect();
@@ -126,18 +104,6 @@ pub fn list_visible(
                 subsamples: taken.then_some(between.samples),
                 first: window.pixel(first),
             }
-        })
-        .collect()
-}
-
-/// The window cut into bands of at most `rows` rows.
-fn bands(scene: &Scene, window: Window, rows: u32) -> Vec<Window> {
-    let frame = scene.camera.resolution();
-    (window.y0()..window.y1())
-        .step_by(rows as usize)
-        .filter_map(|y| {
-            let end = y.saturating_add(rows).min(window.y1());
-            Window::new(frame, window.x0(), y, window.x1(), end)
         })
         .collect()
 }

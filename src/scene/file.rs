@@ -28,7 +28,7 @@
 //! | `image.width` | must | columns, 1…65536 |
 //! | `image.height` | must | rows, 1…65536 |
 //! | `image.background` | `[0, 0, 0]` | RGB where nothing is visible |
-//! | `image.samples` | 1 | samples per pixel and axis; only 1 is simulated |
+//! | `image.samples` | 1 | samples per pixel and axis for colour and alpha, 1…16 |
 //! | `camera.eye` | must | look-at camera: where it is |
 //! | `camera.target` | must | look-at camera: the point in the middle of the image |
 //! | `camera.up` | must | look-at camera: what points upwards in the image |
@@ -53,7 +53,7 @@
 //! | `material.ke` | `[0, 0, 0]` | RGB: emission |
 //! | `material.ns` | 32 | specular exponent, at least 0 |
 //! | `material.unlit` | false | true: radiance is `kd`, times its map, whatever the lights |
-//! | `material.opacity` | 1 | 0…1; only 1 is simulated |
+//! | `material.opacity` | 1 | 0…1: below 1 what lies behind is seen through, blended front to back |
 //! | `material.kd_map` | none | a PNG or JPEG file that multiplies `kd` where a triangle has texture coordinates; `ka` stays as it is |
 //! | `material.ks_map` | none | likewise for `ks` |
 //! | `material.filter` | `"bilinear"` | of both maps: `"nearest"`, `"bilinear"` or `"mip"` |

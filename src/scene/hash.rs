@@ -27,6 +27,7 @@ fn hash_view(hash: &mut Sha256, scene: &Scene) {
         floats(hash, &vector);
     }
     floats(hash, &[camera.z_per_t()]);
+    hash.update(scene.samples.side().to_le_bytes());
 }
 
 fn hash_mesh(hash: &mut Sha256, scene: &Scene) {
@@ -59,7 +60,7 @@ fn hash_surfaces(hash: &mut Sha256, scene: &Scene) {
         for color in [material.ka, material.kd, material.ks, material.ke] {
             floats(hash, &color);
         }
-        floats(hash, &[material.ns]);
+        floats(hash, &[material.ns, material.opacity]);
         // Only where it says something, so that the digests of lit scenes stay.
         if material.unlit {
             hash.update(b"unlit");
@@ -151,6 +152,7 @@ mod tests {
     use super::*;
     use crate::pixel::Resolution;
     use crate::scene::camera::PinholeCamera;
+    use crate::scene::sampling::SampleGrid;
 
     #[test]
     fn the_digest_follows_the_numbers_and_nothing_else() {
@@ -164,6 +166,12 @@ mod tests {
         let mut renamed = scene.clone();
         renamed.materials[0].name = "other".to_owned();
         assert_eq!(content_hash(&renamed), digest);
+        let mut glassy = scene.clone();
+        glassy.materials[0].opacity = 0.5;
+        assert_ne!(content_hash(&glassy), digest);
+        let mut finer = scene.clone();
+        finer.samples = SampleGrid::new(2).unwrap();
+        assert_ne!(content_hash(&finer), digest);
         let mut moved = scene;
         moved.mesh.positions[1][0] = f32::from_bits(1.0_f32.to_bits() + 1);
         assert_ne!(content_hash(&moved), digest);

@@ -5,6 +5,7 @@ use super::error::{Fault, Place, SceneError};
 use super::file::SceneFile;
 use super::file::text::{Faults, line_and_column};
 use super::resolve;
+use super::sampling::SampleGrid;
 use crate::pixel::Resolution;
 use std::fmt;
 use std::path::Path;
@@ -19,6 +20,8 @@ pub struct Overrides {
     pub only_lights: Vec<String>,
     /// Whether all lights keep only their ambient parts.
     pub ambient_only: bool,
+    /// Another number of samples per pixel.
+    pub samples: Option<SampleGrid>,
 }
 
 /// All faults of a scene and its meshes; at least one. Displayed one a line, advice below.

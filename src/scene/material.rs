@@ -43,10 +43,14 @@ pub struct Material {
     pub ks_map: Option<TextureRef>,
     /// Radiance is kd (times its map), whatever the lights.
     pub unlit: bool,
+    /// How much of the surface there is for the eye, 0…1: below 1 what lies behind is seen through
+    /// it.
+    pub opacity: f64,
 }
 
 impl Material {
-    /// The material of surfaces that name none: kd 0.8, ka = kd, no specular, no emission, ns 32.
+    /// The material of surfaces that name none: kd 0.8, ka = kd, no specular, no emission, ns 32,
+    /// opaque.
     pub fn default_named(name: &str) -> Self {
         Self {
             name: name.to_owned(),
@@ -58,6 +62,7 @@ impl Material {
             kd_map: None,
             ks_map: None,
             unlit: false,
+            opacity: 1.0,
         }
     }
 

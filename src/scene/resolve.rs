@@ -35,6 +35,7 @@ pub(super) fn scene(
         .and_then(|image| image.background.as_ref())
         .map_or([0.0; 3], |rgb| color(rgb, "background", faults));
     let camera = camera::resolve(file, overrides, faults);
+    let samples = camera::samples(file, faults);
     let mut materials = material::resolve(file, base, faults);
     let transforms = mesh::transforms(file, faults);
     let frames = light_frame::Frames::new(file, camera.as_ref(), &transforms, faults);
@@ -45,6 +46,7 @@ pub(super) fn scene(
     Some(Scene {
         camera: camera?,
         background,
+        samples: overrides.samples.unwrap_or(samples),
         mesh: assembly.mesh,
         objects: assembly.objects,
         materials: materials.list,

@@ -11,6 +11,7 @@ use crate::mesh::NO_ATTRIBUTE;
 use crate::scene::Scene;
 use crate::scene::light::{Light, LightColors};
 use crate::scene::material::Material;
+use crate::scene::sampling::SampleGrid;
 use crate::scene::switches::Rules;
 
 /// Who calls for an effect, by position in the scene's lists.
@@ -19,6 +20,7 @@ pub(super) enum Caller {
     Light(usize),
     Material(usize),
     Object(usize),
+    Image,
 }
 
 /// Per channel, whether any material in use reflects light: a light calls for a term only where
@@ -44,6 +46,7 @@ pub(super) fn visit_calls(scene: &Scene, mut call: impl FnMut(Effects, Caller)) 
             in_use[material as usize] = true;
         }
     }
+    visit_pixel(scene, &in_use, &mut call);
     let worn = || scene.materials.iter().enumerate().filter(|(index, _)| in_use[*index]);
     let rules = scene.switches.rules();
     let mut reflectance = Reflectance::default();
@@ -82,6 +85,18 @@ pub(super) fn visit_calls(scene: &Scene, mut call: impl FnMut(Effects, Caller)) 
                 call(Effects::INTERPOLATED_NORMALS, Caller::Object(index));
             }
         }
+    }
+}
+
+/// Effects of what a pixel is made of: several surfaces, several samples.
+fn visit_pixel(scene: &Scene, in_use: &[bool], mut call: impl FnMut(Effects, Caller)) {
+    for (index, material) in scene.materials.iter().enumerate() {
+        if in_use[index] && material.opacity != 1.0 {
+            call(Effects::OPACITY, Caller::Material(index));
+        }
+    }
+    if scene.samples != SampleGrid::CENTRE {
+        call(Effects::SUPERSAMPLING, Caller::Image);
     }
 }
 
@@ -192,8 +207,8 @@ pub struct Call {
     pub effect: &'static str,
     /// Whether it is on.
     pub on: bool,
-    /// Who calls for it: `light[0] (spot)`, `material "brass"`, `mesh[1] "teapot.obj"`; positions
-    /// are 0-based in file order.
+    /// Who calls for it: `light[0] (spot)`, `material "brass"`, `mesh[1] "teapot.obj"`,
+    /// `image.samples = 3`; positions are 0-based in file order.
     pub called_by: Vec<String>,
 }
 
@@ -216,5 +231,6 @@ fn describe(scene: &Scene, caller: Caller) -> String {
         }
         Caller::Material(index) => format!("material {:?}", scene.materials[index].name),
         Caller::Object(index) => format!("mesh[{index}] {:?}", scene.objects[index].name),
+        Caller::Image => format!("image.samples = {}", scene.samples.side()),
     }
 }

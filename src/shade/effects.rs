@@ -42,11 +42,15 @@ impl Effects {
     pub const SHADOWS: Self = Self(1 << 12);
     /// Textures of kd and ks.
     pub const TEXTURES: Self = Self(1 << 13);
+    /// Surfaces seen through others: blended by `render`, which shades each as any other.
+    pub const OPACITY: Self = Self(1 << 14);
+    /// Several samples per pixel: averaged by `render`.
+    pub const SUPERSAMPLING: Self = Self(1 << 15);
     /// Every effect: the reference that every smaller set is compared with.
-    pub const ALL: Self = Self((1 << 14) - 1);
+    pub const ALL: Self = Self(u16::MAX);
 
     /// Each single effect with its name, in the order of the bits.
-    pub const NAMED: [(Self, &'static str); 14] = [
+    pub const NAMED: [(Self, &'static str); 16] = [
         (Self::EMISSION, "emission"),
         (Self::AMBIENT, "ambient"),
         (Self::DIRECTIONAL, "directional"),
@@ -61,6 +65,8 @@ impl Effects {
         (Self::HEMISPHERE, "hemisphere"),
         (Self::SHADOWS, "shadows"),
         (Self::TEXTURES, "textures"),
+        (Self::OPACITY, "opacity"),
+        (Self::SUPERSAMPLING, "supersampling"),
     ];
 
     /// The effects that a scene calls for.

@@ -30,6 +30,8 @@ mod lighting;
 mod material_presets;
 // OBJ and MTL, one test per misreading.
 mod obj;
+// What is seen through surfaces: exact order by both paths, and what comes of it in colour.
+mod opacity;
 // The rasterizer on golden and hard scenes: tile sizes, windows, threads.
 mod raster;
 // What the README shows is what the program does.
@@ -58,6 +60,8 @@ mod textures;
 mod vertex_colors;
 // Vertex normals by weight and crease, from a scene file.
 mod vertex_normals;
+// Several samples per pixel, as the program gives them.
+mod supersampling;
 // The list of visible triangles, and what lies between pixel centres.
 mod visible;
 // The rasterizer as graphics processors have it: exactly once, and where it may differ.

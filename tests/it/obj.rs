@@ -353,12 +353,12 @@ fn files_are_loaded_with_the_libraries_beside_them() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("square.obj");
     std::fs::write(&path, format!("mtllib m.mtl\n{SQUARE}usemtl a\nf 1 2 3 4\n")).unwrap();
-    std::fs::write(folder.path().join("m.mtl"), "newmtl a\nKd 0.25\nd 0.5\n").unwrap();
+    std::fs::write(folder.path().join("m.mtl"), "newmtl a\nKd 0.25\nTf 0.5\n").unwrap();
     let file = load(&path).unwrap();
     assert_eq!(file.materials[0].kd, [0.25; 3]);
     assert_eq!(file.part.triangle_materials, [0, 0]);
     assert_eq!(file.part.lines, [7, 7]);
-    assert!(file.warnings.len() == 1 && file.warnings[0].contains("m.mtl:1: "));
+    assert!(file.warnings.len() == 1 && file.warnings[0].contains("m.mtl:3: "));
     // A folder in the library's place is a warning; in the file's place, an error.
     std::fs::remove_file(folder.path().join("m.mtl")).unwrap();
     std::fs::create_dir(folder.path().join("m.mtl")).unwrap();

@@ -100,8 +100,14 @@ fn assert_sound(loaded: Result<Scene, SceneErrors>, name: &str, fate: &mut Fate)
     for answer in &answers {
         let no_nan = answer.radiance.iter().flatten().all(|c| !c.is_nan() && *c >= 0.0);
         assert!(no_nan, "{name}: {:?}", answer.radiance);
-        let film =
-            develop(&scene, &answer.buffer, &answer.radiance, &PlaneGroups::all(), Accuracy::Exact);
+        let film = develop(
+            &scene,
+            &answer.buffer,
+            &answer.radiance,
+            &answer.alpha,
+            &PlaneGroups::all(),
+            Accuracy::Exact,
+        );
         for plane in &film.planes {
             let Samples::Float(values) = &plane.samples else { continue };
             assert!(values.iter().all(|value| !value.is_nan()), "{name}: {}", plane.name);

@@ -9,7 +9,7 @@ use tempfile::TempDir;
 use truecast::accel::BuildPreset;
 use truecast::pixel::{Pixel, Resolution, Window};
 use truecast::render::visible::{Listing, SubsampleGrid, VisibleTriangle, list_visible};
-use truecast::render::{Unwatched, VisibilityPath, see};
+use truecast::render::{Answerer, Unwatched, VisibilityPath};
 use truecast::scene::Scene;
 use truecast::visibility::Counting;
 
@@ -22,8 +22,9 @@ fn list(
     path: VisibilityPath,
 ) -> Vec<VisibleTriangle> {
     let preset = BuildPreset::Medium;
-    let seen = see(scene, path, preset, window, Counting::Nearest, &Unwatched);
-    list_visible(scene, &seen.buffer, listing, path, preset, &Unwatched)
+    let answerer = Answerer::new(scene, path, preset, &Unwatched);
+    let buffer = answerer.see(scene, window, Counting::Nearest, &Unwatched);
+    list_visible(scene, &buffer, listing, &answerer, &Unwatched)
 }
 
 /// (id, pixels, sub-samples, first pixel) of each line.

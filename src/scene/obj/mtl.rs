@@ -1,8 +1,8 @@
 //! MTL libraries: the coefficients that the shading equation has.
 //!
-//! Of textures, those of Kd and Ks are asked for; other maps, opacity, refraction and physically
-//! based extensions are left out with a warning by name. tobj is not used here: it panics on
-//! `Kd 0.8` and gives no lines.
+//! Of textures, those of Kd and Ks are asked for; other maps, refraction and physically based
+//! extensions are left out with a warning by name. tobj is not used here: it panics on `Kd 0.8` and
+//! gives no lines.
 
 mod map;
 
@@ -157,9 +157,14 @@ impl Draft {
             "d" => {
                 // `-halo` makes the opacity depend on the angle.
                 let has_halo = walk.values().first().is_some_and(|token| token.text == "-halo");
-                self.opacity = Some(read_coefficient(walk, usize::from(has_halo))?);
+                if has_halo {
+                    let sentence = "`d -halo` (opacity that depends on the angle) is not \
+                                    simulated; its number counts at every angle";
+                    report.warn(file, line, sentence);
+                }
+                self.opacity = Some(read_share(walk, usize::from(has_halo), file, report)?);
             }
-            "Tr" => self.transparency = Some(read_coefficient(walk, 0)?),
+            "Tr" => self.transparency = Some(read_share(walk, 0, file, report)?),
             // The index of refraction acts in the models 5 to 7 only, which warn by themselves.
             "Ni" => {}
             word => {
@@ -222,9 +227,7 @@ fn finish(draft: Option<Draft>, file: &Path, library: &mut Library, report: &mut
         // 1e-6: exporters write six decimals.
         && disagree(d, tr)
     {
-        report.warn(file, draft.line, "`d` and `Tr` of a material disagree (`Tr` is 1 - `d`)");
-    } else if draft.opacity.unwrap_or(1.0) != 1.0 || draft.transparency.unwrap_or(0.0) != 0.0 {
-        let sentence = "opacity is not simulated by this version; drawn opaque";
+        let sentence = "`d` and `Tr` of a material disagree (`Tr` is 1 - `d`); `d` counts";
         report.warn(file, draft.line, sentence);
     }
     let default = Material::default_named(&draft.name);
@@ -245,6 +248,10 @@ fn finish(draft: Option<Draft>, file: &Path, library: &mut Library, report: &mut
         ke: draft.ke.unwrap_or(default.ke),
         ns: draft.ns.unwrap_or(default.ns),
         unlit: draft.unlit,
+        opacity: draft
+            .opacity
+            .or_else(|| draft.transparency.map(|tr| 1.0 - tr))
+            .unwrap_or(default.opacity),
         ..default
     };
     let ks_map = draft.ks_map.filter(|_| draft.has_specular);
@@ -281,6 +288,22 @@ fn read_color(
             Err(SceneError::scene(walk.place(&keyword), message))
         }
     }
+}
+
+/// The value at `position` as a number from 0 to 1; a larger one counts as 1, with a warning.
+fn read_share(
+    walk: &Statements<'_>,
+    position: usize,
+    file: &Path,
+    report: &mut Report,
+) -> Result<f64, SceneError> {
+    let share = read_coefficient(walk, position)?;
+    if share > 1.0 {
+        let keyword = walk.keyword();
+        let sentence = format!("{} above 1 counts as 1", quote(keyword.text));
+        report.warn(file, keyword.line, &sentence);
+    }
+    Ok(share.min(1.0))
 }
 
 /// The value at `position` as a finite number of at least 0.

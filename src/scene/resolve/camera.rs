@@ -5,6 +5,7 @@ use crate::scene::camera::{CameraError, PinholeCamera};
 use crate::scene::file::text::{Faults, Span};
 use crate::scene::file::{CameraForm, ImageFile, SceneFile};
 use crate::scene::load::Overrides;
+use crate::scene::sampling::SampleGrid;
 use toml::Spanned;
 
 pub(super) fn resolve(
@@ -92,22 +93,23 @@ impl Places {
 }
 
 fn resolution(image: &ImageFile, faults: &mut Faults<'_>) -> Option<Resolution> {
-    if let Some(samples) = &image.samples {
-        match samples.get_ref() {
-            1 => {}
-            number if *number < 1 => {
-                faults.at(&samples.span(), format!("`samples` must be at least 1, not {number}"));
-            }
-            _ => {
-                let message =
-                    "supersampling (`samples` other than 1) is not simulated by this version";
-                faults.at(&samples.span(), message);
-            }
-        }
-    }
     let width = side(&image.width, "width", faults);
     let height = side(&image.height, "height", faults);
     Resolution::new(width?, height?)
+}
+
+/// The samples per pixel: one where the file says nothing.
+pub(super) fn samples(file: &SceneFile, faults: &mut Faults<'_>) -> SampleGrid {
+    let Some(written) = file.image.as_ref().and_then(|image| image.samples.as_ref()) else {
+        return SampleGrid::CENTRE;
+    };
+    let number = *written.get_ref();
+    u32::try_from(number).ok().and_then(SampleGrid::new).unwrap_or_else(|| {
+        let most = SampleGrid::MOST;
+        let message = format!("`samples` must be a whole number from 1 to {most}, not {number}");
+        faults.at(&written.span(), message);
+        SampleGrid::CENTRE
+    })
 }
 
 fn side(written: &Spanned<i64>, key: &str, faults: &mut Faults<'_>) -> Option<u32> {

@@ -57,17 +57,15 @@ pub(super) fn resolve(file: &SceneFile, base: &Path, faults: &mut Faults<'_>) ->
 }
 
 fn material(written: &MaterialFile, faults: &mut Faults<'_>) -> Material {
-    if let Some(opacity) = &written.opacity {
+    let default =
+        preset(written, faults).unwrap_or_else(|| Material::default_named(written.name.get_ref()));
+    let opacity = written.opacity.as_ref().map_or(default.opacity, |opacity| {
         let number = *opacity.get_ref();
         if !(0.0..=1.0).contains(&number) {
             faults.at(&opacity.span(), format!("`opacity` must be from 0 to 1, not {number}"));
-        } else if number != 1.0 {
-            let message = "transparency (`opacity` other than 1) is not simulated by this version";
-            faults.at(&opacity.span(), message);
         }
-    }
-    let default =
-        preset(written, faults).unwrap_or_else(|| Material::default_named(written.name.get_ref()));
+        number
+    });
     let mut rgb = |key: &str, value: &Option<Spanned<[f64; 3]>>, default| {
         value.as_ref().map_or(default, |rgb| color(rgb, key, faults))
     };
@@ -82,7 +80,7 @@ fn material(written: &MaterialFile, faults: &mut Faults<'_>) -> Material {
     let ke = rgb("ke", &written.ke, default.ke);
     let ns = written.ns.as_ref().map_or(default.ns, |ns| at_least_zero(ns, "ns", faults));
     let unlit = written.unlit.as_ref().is_some_and(|unlit| *unlit.get_ref());
-    Material { ka, kd, ks, ke, ns, unlit, ..default }
+    Material { ka, kd, ks, ke, ns, unlit, opacity, ..default }
 }
 
 /// The material of the preset that is named, with the name of this material.

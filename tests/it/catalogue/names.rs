@@ -32,8 +32,8 @@ const SECTIONS: [Section; 7] = [
     },
     // D.5: scale, translation and extremes.
     Section { cases: "h70 h71 h72 h73 h74 h75 h76 h77 h78 h79 h7a", place: "scale" },
-    // D.6: transformations that change no picture. H86 is about supersampling, which does not exist.
-    Section { cases: "h80 h81 h82 h83 h84 h85 h87 h88 h89", place: "scale" },
+    // D.6: transformations that change no picture.
+    Section { cases: "h80 h81 h82 h83 h84 h85 h86 h87 h88 h89", place: "scale" },
     // D.6, the stability mask.
     Section { cases: "h8a", place: "stability" },
 ];

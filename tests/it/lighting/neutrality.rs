@@ -117,7 +117,7 @@ fn callers_are_named() {
     let calls = shade::explain(&busy_scene());
     assert_eq!(calls.len(), Effects::NAMED.len());
     let off: Vec<_> = calls.iter().filter(|call| !call.on).map(|call| call.effect).collect();
-    assert_eq!(off, ["shadows", "textures"]);
+    assert_eq!(off, ["shadows", "textures", "opacity", "supersampling"]);
     let called_by = |effect: &str| {
         let call = calls.iter().find(|call| call.effect == effect).unwrap();
         call.called_by.join(", ")

@@ -18,10 +18,10 @@ use truecast::render::Unwatched;
 use truecast::scene::Scene;
 use truecast::scene::camera::PinholeCamera;
 use truecast::shade::{Effects, shade};
-use truecast::visibility::{Counting, Facing, VisibilityBuffer, Visible};
+use truecast::visibility::{Counting, Facing, Layers, VisibilityBuffer, Visible};
 
 /// Scenes full of ties, in front of G(8) with the eye at the origin: name and triangles.
-fn scenes_with_ties() -> Vec<(String, Vec<Triangle>)> {
+pub(super) fn scenes_with_ties() -> Vec<(String, Vec<Triangle>)> {
     let mut scenes: Vec<(String, Vec<Triangle>)> =
         ["grid_exact", "interpenetrating_2^-20", "box_inside", "tiny_in_front_of_huge"]
             .map(|name| (name.to_owned(), triangles_of(&golden::scene(name).scene)))
@@ -484,7 +484,9 @@ fn h89_exchanged_paths() {
         let tree = Accelerator::build(&scene.mesh, BuildPreset::Medium);
         let shaded = |buffer: VisibilityBuffer| {
             let radiance = shade(&scene, &buffer, Effects::of(&scene), &|| ()).radiance;
-            Answered { buffer, radiance }
+            let seen = |visible: &Option<_>| f64::from(u8::from(visible.is_some()));
+            let alpha = buffer.visible.iter().map(seen).collect();
+            Answered { buffer, layers: Layers::none(window), radiance, alpha }
         };
         let cast = shaded(cast(&scene, &tree, window, Counting::All, &|| ()));
         let raster = shaded(rasterize(&scene, window, Counting::All, &|| ()));

@@ -32,12 +32,12 @@ fn version_image_and_camera_must_be_there() {
 fn image_out_of_range() {
     refused_whole(
         &HEAD
-            .replace("width = 4", "width = ▸0\nbackground = ▸[0, -0.5, 0]\nsamples = ▸2")
+            .replace("width = 4", "width = ▸0\nbackground = ▸[0, -0.5, 0]\nsamples = ▸17")
             .replace("height = 3", "height = ▸65537"),
         &[
             "`width` must be a whole number from 1 to 65536, not 0",
             "`background` must be at least 0 in every channel, not -0.5",
-            "supersampling (`samples` other than 1) is not simulated by this version",
+            "`samples` must be a whole number from 1 to 16, not 17",
             "`height` must be a whole number from 1 to 65536, not 65537",
         ],
     );

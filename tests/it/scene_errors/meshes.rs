@@ -12,12 +12,12 @@ pub(super) fn mesh_refused(marked: &str, messages: &[&str]) {
 #[test]
 fn materials() {
     refused(
-        "[[material]]\nname = \"a\"\nkd = ▸[1, -1, 0]\nns = ▸-1\nopacity = ▸0.5\nkd_map = \"w.png\"\n\
+        "[[material]]\nname = \"a\"\nkd = ▸[1, -1, 0]\nns = ▸-1\nopacity = ▸-0.5\nkd_map = \"w.png\"\n\
          [[material]]\nname = ▸\"a\"\nopacity = ▸2\nfilter = ▸\"mip\"\nwrap = ▸\"clamp\"\n▸[[material]]\n",
         &[
             "`kd` must be at least 0 in every channel, not -1",
             "`ns` must be at least 0, not -1",
-            "transparency (`opacity` other than 1) is not simulated by this version",
+            "`opacity` must be from 0 to 1, not -0.5",
             "the name `a` is taken by another material",
             "`opacity` must be from 0 to 1, not 2",
             "`filter` has no use without `kd_map` or `ks_map`",

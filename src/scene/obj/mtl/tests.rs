@@ -35,6 +35,7 @@ fn coefficients_and_their_defaults() {
         kd_map: None,
         ks_map: None,
         unlit: false,
+        opacity: 1.0,
     };
     assert_eq!(library.find("a"), Some(&expected));
     assert_eq!(library.find("b"), Some(&Material::default_named("b")));
@@ -66,13 +67,22 @@ fn illumination_models() {
 fn opacity_is_told() {
     let opaque = "newmtl a\nd 1.0\nTr 0.0\n";
     assert!(library(opaque).1.is_empty());
-    for see_through in ["d 0.4", "d -halo 0.4", "Tr 0.6", "d 0.4\nTr 0.6"] {
-        let (_, warnings) = library(&format!("newmtl a\n{see_through}"));
-        assert_eq!(warnings.len(), 1, "{see_through}: {warnings:?}");
-        assert!(warnings[0].contains("drawn opaque"), "{warnings:?}");
+    for see_through in ["d 0.25", "Tr 0.75", "d 0.25\nTr 0.75", "Tr 0.75\nd 0.25"] {
+        let (library, warnings) = library(&format!("newmtl a\n{see_through}"));
+        assert!(warnings.is_empty(), "{see_through}: {warnings:?}");
+        assert_eq!(library.find("a").unwrap().opacity, 0.25, "{see_through}");
     }
-    let (_, warnings) = library("newmtl a\nd 1\nTr 1");
-    assert!(warnings.len() == 1 && warnings[0].contains("disagree"), "{warnings:?}");
+    for (text, opacity, word) in [
+        ("d -halo 0.25", 0.25, "angle"),
+        ("d 1\nTr 1", 1.0, "disagree"),
+        ("d 2", 1.0, "`d` above 1"),
+        ("Tr 1.5", 0.0, "`Tr` above 1"),
+    ] {
+        let (library, warnings) = library(&format!("newmtl a\n{text}"));
+        assert!(warnings.len() == 1 && warnings[0].contains(word), "{text}: {warnings:?}");
+        assert_eq!(library.find("a").unwrap().opacity, opacity, "{text}");
+    }
+    assert_eq!(fault("newmtl a\nd -0.5"), "t.mtl:2:3: `d` is negative: `-0.5`");
 }
 
 #[test]

@@ -1,0 +1,116 @@
+//! One path, ready to be asked about a scene as often as needed: once for a plain frame, once per
+//! sub-sample and band for others.
+
+use super::VisibilityPath;
+use super::progress::Progress;
+use crate::accel::{Accelerator, BuildPreset};
+use crate::cast::{self, cast, cast_layers};
+use crate::pixel::Window;
+use crate::raster::{self, SubpixelBits, rasterize, rasterize_layers, rasterize_watertight};
+use crate::scene::Scene;
+use crate::visibility::{Counting, Layers, VisibilityBuffer};
+
+/// A path that is ready to answer for every camera over one mesh.
+#[derive(Clone, Debug)]
+pub enum Answerer {
+    /// Rays through this BVH.
+    Cast(Accelerator),
+    /// The z-buffer rasterizer.
+    Raster,
+    /// The rasterizer of graphics processors. It knows only the nearest surface.
+    Watertight(SubpixelBits),
+}
+
+impl Answerer {
+    /// Makes a path ready to answer about the scene's mesh.
+    pub fn new(
+        scene: &Scene,
+        path: VisibilityPath,
+        preset: BuildPreset,
+        progress: &dyn Progress,
+    ) -> Self {
+        match path {
+            VisibilityPath::Raster => Self::Raster,
+            VisibilityPath::Cast => {
+                progress.begin("build", 1);
+                let accelerator = Accelerator::build(&scene.mesh, preset);
+                progress.step();
+                Self::Cast(accelerator)
+            }
+        }
+    }
+
+    /// What it does, as progress calls it, and the side of its tiles in pixels.
+    const fn stage(&self) -> (&'static str, u32) {
+        match self {
+            Self::Cast(_) => ("cast", cast::TILE_SIDE),
+            Self::Raster | Self::Watertight(_) => ("rasterize", raster::TILE_SIDE),
+        }
+    }
+
+    /// What is visible at every pixel of a window.
+    pub fn see(
+        &self,
+        scene: &Scene,
+        window: Window,
+        counting: Counting,
+        progress: &dyn Progress,
+    ) -> VisibilityBuffer {
+        let (stage, side) = self.stage();
+        progress.begin(stage, window.tiles(side).len());
+        self.answer(scene, window, counting, &|| progress.step())
+    }
+
+    /// [`Self::see`], with `done` called once per finished tile, from any thread.
+    pub fn answer(
+        &self,
+        scene: &Scene,
+        window: Window,
+        counting: Counting,
+        done: &(dyn Fn() + Sync),
+    ) -> VisibilityBuffer {
+        match self {
+            Self::Cast(accelerator) => cast(scene, accelerator, window, counting, done),
+            Self::Raster => rasterize(scene, window, counting, done),
+            Self::Watertight(bits) => rasterize_watertight(scene, window, *bits, counting, done),
+        }
+    }
+
+    /// What lies behind the see-through surfaces of its own answer.
+    pub fn see_through(
+        &self,
+        scene: &Scene,
+        nearest: &VisibilityBuffer,
+        progress: &dyn Progress,
+    ) -> Layers {
+        if has_see_through(scene, nearest) {
+            progress.begin("layers", nearest.window.tiles(self.stage().1).len());
+        }
+        self.layers(scene, nearest, &|| progress.step())
+    }
+
+    /// [`Self::see_through`], with `done` called once per finished tile, from any thread. Nothing
+    /// is asked where every surface is opaque; the watertight rasterizer has no answer to it and
+    /// shows none.
+    pub fn layers(
+        &self,
+        scene: &Scene,
+        nearest: &VisibilityBuffer,
+        done: &(dyn Fn() + Sync),
+    ) -> Layers {
+        if !has_see_through(scene, nearest) {
+            return Layers::none(nearest.window);
+        }
+        let opaque = |id| scene.is_opaque(id);
+        match self {
+            Self::Cast(accelerator) => cast_layers(scene, accelerator, nearest, &opaque, done),
+            Self::Raster => rasterize_layers(scene, nearest, &opaque, done),
+            Self::Watertight(_) => Layers::none(nearest.window),
+        }
+    }
+}
+
+/// Whether any nearest surface is see-through.
+fn has_see_through(scene: &Scene, nearest: &VisibilityBuffer) -> bool {
+    nearest.visible.iter().flatten().any(|visible| !scene.is_opaque(visible.triangle))
+}
