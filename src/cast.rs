@@ -15,6 +15,7 @@ mod filter;
 mod memo;
 mod pair;
 mod ray;
+pub mod shadow;
 mod single;
 mod unrounded;
 
