@@ -160,8 +160,23 @@ impl ShadowRay {
             || all([w0 < -bound, w1 < -bound, w2 < -bound, plane < -plane_bound, end < -end_bound])
         {
             Side::Crossed
+        } else if self.light_is_evidently_in_plane(&v) {
+            Side::Beside
         } else {
             Side::Open
+        }
+    }
+
+    /// Whether τ = 0 at first sight: the light is at a corner, or in a plane across an axis with all
+    /// of them. Lights at vertices and in floors would otherwise send every ray to the integers.
+    fn light_is_evidently_in_plane(&self, v: &[[f64; 3]; 3]) -> bool {
+        match self.light {
+            LightPoint::Position(l) => {
+                v.contains(&l) || (0..3).any(|k| v.iter().all(|corner| corner[k] == l[k]))
+            }
+            LightPoint::Direction(l) => {
+                (0..3).any(|k| l[k] == 0.0 && v.iter().all(|corner| corner[k] == v[0][k]))
+            }
         }
     }
 
