@@ -63,17 +63,17 @@ fn shadow_bench(name: &str) -> Bench {
             let wall = [[-9.1, -9.2, 7.3], [9.3, -9.7, 8.9], [0.3, 17.0, 11.7]];
             (vec![blade(4.0), wall], [3.3, 0.4, 1.7])
         }
-        // The blade is 1/1024 before the wall, the light 4.
+        // The blade is 1/512 before the wall, the light 4: its shadow falls 3 beside it.
         "blade on a wall" => {
             let mut triangles = wall.to_vec();
-            triangles.push(blade(8.0 - 1.0 / 1024.0));
-            triangles.push([[4.0, -4.0, 6.0], [5.0, -4.0, 6.0], [4.0, 4.0, 6.0]]);
-            (triangles, [30.0, 0.5, 4.0])
+            triangles.push(blade(8.0 - 1.0 / 512.0));
+            (triangles, [6000.0, 0.5, 4.0])
         }
+        // The light between two blades: one casts a shadow on the wall.
         "light before a blade" => {
             let mut triangles = wall.to_vec();
-            triangles.extend([blade(1.0), blade(5.5)]);
-            (triangles, [1.25, 0.5, 4.0])
+            triangles.extend([blade(5.0), blade(7.0)]);
+            (triangles, [1.25, 0.5, 6.0])
         }
         // The wall's triangles share a plane, and its samples are on their edges.
         "grid_exact" => {

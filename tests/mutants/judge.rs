@@ -98,7 +98,7 @@ impl Bench {
 
 impl Judged {
     fn wrong_pixels(&self, path: Path) -> usize {
-        let Self { scene, answers: right } = self;
+        let Self { scene, answers: right, .. } = self;
         let window = scene.camera.resolution().window();
         let buffers: Vec<VisibilityBuffer> = match path {
             Path::Cast => {
