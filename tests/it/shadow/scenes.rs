@@ -117,7 +117,7 @@ fn lights_of_extreme_numbers_agree() {
     let mut triangles = closed_box([-1.0, -1.0, 5.0], [2.0, 1.0, 6.0]);
     triangles.extend(rectangle([-9.0, -9.0], [9.0, 9.0], 8.0));
     let met = agreed("extremes", &standard_scene(&triangles), &extreme());
-    assert!(met.lit > 100 && met.shadowed > 100, "{met:?}");
+    assert!(met.lit > 100 && met.shadowed > 20, "{met:?}");
     assert!(met.counts.exact * 4 > met.counts.rays, "{met:?}");
 }
 
