@@ -74,11 +74,10 @@ impl Segment {
     fn meet(&self, planes: &[[[f32; 2]; 3]; 2]) -> [[f64; 2]; 2] {
         let mut near = [0.0; 2];
         let mut far = [f64::INFINITY; 2];
-        for axis in 0..3 {
+        for (axis, &reciprocal) in self.reciprocal.iter().enumerate() {
             let side = self.near_side[axis] & 1;
             let (first, last) = (planes[side][axis], planes[1 - side][axis]);
             let [enter, leave] = [self.origin[0][axis], self.origin[1][axis]];
-            let reciprocal = self.reciprocal[axis];
             for child in 0..2 {
                 near[child] = larger((f64::from(first[child]) - enter) * reciprocal, near[child]);
                 far[child] = smaller((f64::from(last[child]) - leave) * reciprocal, far[child]);
