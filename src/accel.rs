@@ -13,7 +13,7 @@ mod traverse;
 
 pub(crate) use entries::LeafTriangle;
 pub use preset::BuildPreset;
-pub(crate) use traverse::{Pending, Slabs};
+pub(crate) use traverse::{Pending, Segment, Slabs};
 
 use crate::mesh::{TriangleId, TriangleMesh};
 use node::{Child, Tree};
@@ -100,6 +100,16 @@ impl Accelerator {
         visit: impl FnMut(&[LeafTriangle]) -> f64,
     ) {
         self.tree.traverse(slabs, pending, visit);
+    }
+
+    /// Visits triangles until `found` says so, among them every one that the segment meets.
+    pub(crate) fn search(
+        &self,
+        segment: &Segment,
+        pending: &mut Pending,
+        found: impl FnMut(&[LeafTriangle]) -> bool,
+    ) {
+        self.tree.search(segment, pending, found);
     }
 }
 

@@ -16,6 +16,7 @@ mod layers;
 mod memo;
 mod pair;
 mod ray;
+pub mod shadow;
 mod single;
 mod unrounded;
 

@@ -13,8 +13,10 @@ mod contact;
 mod discard;
 mod interval;
 mod rational;
+mod shadow;
 mod ties;
 
+pub use shadow::Shadows;
 pub use ties::TieAnswers;
 
 use crate::mesh::{Barycentric, TriangleId};

@@ -27,6 +27,12 @@
 //! cover every sample exactly once, without an epsilon anywhere. Edge-on and zero-area triangles
 //! and those that touch the eye have V = 0 and are never visible.
 //!
+//! A hard shadow is a question of the same kind ([`cast::shadow`], [`exact::Shadows`]): a triangle
+//! other than the visible one occludes a light if it crosses the open segment from the exact surface
+//! point e + (V/D)·d to the light. Each side that this asks for is the sign of a polynomial linear in
+//! d, so it too is taken by `sgn*`: segments cross closed meshes exactly as often as they must, and
+//! no offset keeps a surface out of its own shadow.
+//!
 //! # The floors
 //!
 //! A module uses only modules on floors below its own; a test holds every import against the table.

@@ -91,6 +91,12 @@ mutants! {
     // What is reported.
     ShiftedWeights, "shifted weights", "barycentric weights belong to the wrong corners";
     UnmarkedTies, "unmarked ties", "a sample on an edge is not reported as a tie";
+    // Shadows.
+    ShadowAcne, "shadow acne", "rounded sides decide, for the surface's own triangle too";
+    ShadowOffset, "shadow offset", "the shadow ray starts a thousandth of the way to the light";
+    ShadowBeyondLight, "beyond the light", "what is behind the light casts a shadow";
+    ShadowBothSides, "shadow, both sides", "a side of 0 counts as crossed";
+    ShadowNeitherSide, "shadow, neither", "a side of 0 counts as missed";
     // The arbiter's shortcut.
     DiscardDoubt, "discard doubt", "the interval test discards what it is not sure of";
     // The control of the table itself.

@@ -10,6 +10,7 @@ pub mod file;
 pub mod hash;
 pub(crate) mod lattice;
 pub mod light;
+pub mod light_point;
 mod load;
 pub mod material;
 pub mod obj;

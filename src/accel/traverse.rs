@@ -16,6 +16,10 @@
 //! (−∞, ∞), one that does not is empty, and where the eye lies on a face, 0·∞ = NaN leaves the
 //! bound as it is, because `larger` and `smaller` return the other operand then: slabs are closed.
 
+mod segment;
+
+pub(crate) use segment::Segment;
+
 use super::entries::LeafTriangle;
 use super::node::{Child, Tree};
 use crate::mutant::{self, Mutant};

@@ -57,6 +57,11 @@ impl View {
     pub(super) fn camera_t(&self, t: f64) -> f64 {
         t * self.t_scale
     }
+
+    /// The t of the scaled direction for one of the camera's own. Exact, as [`Self::camera_t`].
+    pub(super) fn scaled_t(&self, t: f64) -> f64 {
+        t / self.t_scale
+    }
 }
 
 impl Ray {

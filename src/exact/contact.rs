@@ -40,9 +40,19 @@ impl Ray {
         is_exact.then_some(rounded)
     }
 
+    /// e.
+    pub(super) fn eye(&self) -> &Vector {
+        &self.eye
+    }
+
+    /// d.
+    pub(super) fn direction(&self) -> &Vector {
+        &self.direction
+    }
+
     /// sgn*(c·d): the sign with the sample moved by (+ε, +ε²), the first that is not 0 of c·d,
     /// c·DX and c·DY.
-    fn moved_sign(&self, c: &Vector) -> i8 {
+    pub(super) fn moved_sign(&self, c: &Vector) -> i8 {
         mutant::moves([&self.direction, &self.dx, &self.dy])
             .into_iter()
             .map(|direction| sign(&dot(c, direction)))

@@ -46,6 +46,8 @@ mod scene_keys;
 mod scene_load;
 // The scenes that come with the project.
 mod scenes;
+// Hard shadows: the caster before the arbiter, at every pixel, with lights where it is hard.
+mod shadow;
 // Every special float in every number of a scene: a finite picture or an error with a place.
 mod specials;
 // The stability mask against moved samples and moved vertices.

@@ -10,11 +10,15 @@ use truecast::exact::Arbiter;
 use truecast::pixel::{Pixel, Resolution};
 use truecast::scene::Scene;
 use truecast::scene::camera::PinholeCamera;
+use truecast::scene::light_point::LightPoint;
 
 const UPPER: Triangle = [[-4.0, -4.0, 8.0], [4.0, -4.0, 8.0], [-4.0, 4.0, 8.0]];
 
 /// The case of that name, which shows something somewhere unless it is about showing nothing.
 pub(crate) fn bench(name: &str) -> Bench {
+    if let Some(scene) = name.strip_prefix("shadow ") {
+        return shadow_bench(scene);
+    }
     let (hard_case, rest) = name.split_once(' ').expect("a hard case and its scene");
     let scenes = match rest {
         "aimed rays" => aimed_rays(),
@@ -47,6 +51,53 @@ pub(crate) fn bench(name: &str) -> Bench {
     let bench = Bench::new(scenes);
     let shows_nothing = ["H46", "H47"].contains(&hard_case);
     assert_eq!(bench.covered() == 0, shows_nothing, "{name}");
+    bench
+}
+
+/// A case about shadows: a scene with lights, some of whose pixels are lit and some not.
+fn shadow_bench(name: &str) -> Bench {
+    let wall = rectangle([-9.0, -9.0], [9.0, 9.0], 8.0);
+    let blade = |z: f32| [[-2.0, -2.0, z], [2.0, -2.0, z], [0.0, 3.0, z]];
+    let (triangles, light): (Vec<Triangle>, _) = match name {
+        "slanted wall" => {
+            let wall = [[-9.1, -9.2, 7.3], [9.3, -9.7, 8.9], [0.3, 17.0, 11.7]];
+            (vec![blade(4.0), wall], [3.3, 0.4, 1.7])
+        }
+        // The blade is 1/512 before the wall, the light 4: its shadow falls 3 beside it.
+        "blade on a wall" => {
+            let mut triangles = wall.to_vec();
+            triangles.push(blade(8.0 - 1.0 / 512.0));
+            (triangles, [6000.0, 0.5, 4.0])
+        }
+        // The light between two blades: one casts a shadow on the wall.
+        "light before a blade" => {
+            let mut triangles = wall.to_vec();
+            triangles.extend([blade(5.0), blade(7.0)]);
+            (triangles, [1.25, 0.5, 6.0])
+        }
+        // The wall's triangles share a plane, and its samples are on their edges.
+        "grid_exact" => {
+            let grid = golden::scene("grid_exact").scene;
+            let mut triangles: Vec<Triangle> =
+                grid.mesh.ids().map(|id| grid.mesh.triangle(id)).collect();
+            triangles.push([[-1.0, -1.5, 2.0], [0.5, -1.0, 2.0], [0.0, 1.0, 2.5]]);
+            (triangles, [2.3, 0.7, 0.3])
+        }
+        // From the light, the inner edges of the four squares fall on pixel centres of the wall; the
+        // light is off the eye's axis, so that the wall is seen there.
+        "grid over a wall" => {
+            let mut triangles = rectangle([-16.0, -16.0], [16.0, 16.0], 16.0).to_vec();
+            for [x, y] in [[0.0, 0.0], [2.0, 0.0], [0.0, 2.0], [2.0, 2.0]] {
+                triangles.extend(rectangle([x, y], [x + 2.0, y + 2.0], 4.0));
+            }
+            (triangles, [4.0, 2.0, 0.0])
+        }
+        _ => unreachable!("no case of shadows is called {name}"),
+    };
+    let light = LightPoint::Position(light);
+    let bench = Bench::with_light(standard_scene(&triangles), light);
+    let [lit, dark] = bench.lit_and_dark();
+    assert!(lit > 5 && dark > 5, "{name}: {lit} lit, {dark} dark");
     bench
 }
 

@@ -3,9 +3,12 @@
 use std::fmt;
 use truecast::accel::{Accelerator, BuildPreset};
 use truecast::cast::cast_with_tiles;
+use truecast::cast::shadow::ShadowCaster;
 use truecast::exact::{Answer, Arbiter};
+use truecast::pixel::Pixel;
 use truecast::raster::rasterize_in_tiles;
 use truecast::scene::Scene;
+use truecast::scene::light_point::LightPoint;
 use truecast::visibility::{Counting, Cover, VisibilityBuffer, Visible};
 
 /// Who answers.
@@ -39,6 +42,8 @@ pub(crate) struct Bench(Vec<Judged>);
 struct Judged {
     scene: Scene,
     answers: Vec<Answer>,
+    /// A light, and whether each pixel's surface is in its shadow.
+    shadow: Option<(LightPoint, Vec<Option<bool>>)>,
 }
 
 /// Tiles that are smaller than the frames of the cases, so that tiles have edges in the picture,
@@ -51,8 +56,22 @@ const WEIGHT_TOLERANCE: f64 = 1.0 / (1_u64 << 45) as f64;
 impl Bench {
     /// Asks the arbiter, while nothing is planted.
     pub(crate) fn new(scenes: Vec<Scene>) -> Self {
-        let judged = |scene: Scene| Judged { answers: answers(&scene), scene };
+        let judged = |scene: Scene| Judged { answers: answers(&scene), scene, shadow: None };
         Self(scenes.into_iter().map(judged).collect())
+    }
+
+    /// As [`Self::new`], with one scene and its light.
+    pub(crate) fn with_light(scene: Scene, light: LightPoint) -> Self {
+        let shadow = Some((light, shadows(&scene, light)));
+        Self(vec![Judged { answers: answers(&scene), scene, shadow }])
+    }
+
+    /// Pixels whose surface a light reaches, and those in its shadow.
+    pub(crate) fn lit_and_dark(&self) -> [usize; 2] {
+        [false, true].map(|dark| {
+            let all = self.0.iter().filter_map(|judged| judged.shadow.as_ref());
+            all.flat_map(|(_, dark)| dark).filter(|&&found| found == Some(dark)).count()
+        })
     }
 
     /// The right answers of the first scene.
@@ -79,7 +98,7 @@ impl Bench {
 
 impl Judged {
     fn wrong_pixels(&self, path: Path) -> usize {
-        let Self { scene, answers: right } = self;
+        let Self { scene, answers: right, .. } = self;
         let window = scene.camera.resolution().window();
         let buffers: Vec<VisibilityBuffer> = match path {
             Path::Cast => {
@@ -98,7 +117,8 @@ impl Judged {
                 .collect(),
             Path::Exact => {
                 let found = answers(scene);
-                return found.iter().zip(right).filter(|(found, right)| found != right).count();
+                let wrong = found.iter().zip(right).filter(|(found, right)| found != right).count();
+                return wrong + self.wrong_shadows(|light| shadows(scene, light));
             }
         };
         let is_wrong = |index: &usize| {
@@ -107,8 +127,38 @@ impl Judged {
                 !is_right(buffer.visible[*index].as_ref(), cover, &right[*index])
             })
         };
-        (0..right.len()).filter(is_wrong).count()
+        let wrong = (0..right.len()).filter(is_wrong).count();
+        match path {
+            Path::Cast => {
+                wrong + self.wrong_shadows(|light| cast_shadows(scene, light, &buffers[0]))
+            }
+            _ => wrong,
+        }
     }
+
+    /// Pixels whose shadow is another than the right one, if the scene has a light.
+    fn wrong_shadows(&self, found: impl FnOnce(LightPoint) -> Vec<Option<bool>>) -> usize {
+        let Some((light, right)) = &self.shadow else { return 0 };
+        found(*light).iter().zip(right).filter(|(found, right)| found != right).count()
+    }
+}
+
+/// The arbiter's shadows.
+fn shadows(scene: &Scene, light: LightPoint) -> Vec<Option<bool>> {
+    let arbiter = Arbiter::new(scene);
+    let pixels = scene.camera.resolution().window().pixels();
+    pixels.map(|pixel| arbiter.is_shadowed(pixel, light, |_| true)).collect()
+}
+
+/// The caster's shadows of what it sees.
+fn cast_shadows(scene: &Scene, light: LightPoint, seen: &VisibilityBuffer) -> Vec<Option<bool>> {
+    let tree = Accelerator::build(&scene.mesh, BuildPreset::Medium);
+    let mut caster = ShadowCaster::new(scene, &tree);
+    let mut shadow = |pixel: Pixel| {
+        let visible = seen.at(pixel)?;
+        Some(caster.occluder(pixel, visible, light, |_| true).is_some())
+    };
+    seen.window.pixels().map(&mut shadow).collect()
 }
 
 fn answers(scene: &Scene) -> Vec<Answer> {

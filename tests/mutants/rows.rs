@@ -84,6 +84,14 @@ pub(crate) const ROWS: &[Row] = &[
     // What is reported.
     row(Mutant::ShiftedWeights, ALL, "H06 topleft_upper"),
     row(Mutant::UnmarkedTies, ALL, "H06 topleft_upper"),
+    // Shadows; their cases have lights, and what is counted are wrong shadows too. A surface that is
+    // parallel to an axis has points without rounding, so that the rounded sides are right: the
+    // wall of the acne is slanted.
+    row(Mutant::ShadowAcne, CAST, "shadow slanted wall"),
+    row(Mutant::ShadowOffset, CAST, "shadow blade on a wall"),
+    row(Mutant::ShadowBeyondLight, CAST, "shadow light before a blade"),
+    row(Mutant::ShadowBothSides, CAST, "shadow grid_exact"),
+    row(Mutant::ShadowNeitherSide, CAST, "shadow grid over a wall"),
     // The arbiter's shortcut.
     row(Mutant::DiscardDoubt, EXACT, "H03 grid_exact"),
 ];

@@ -1,0 +1,136 @@
+//! Any-hit traversal along a segment whose start is only known to lie in a small cube.
+//!
+//! The start is x = x̂ + η with |η_k| ≤ δ. Towards a point l the segment is x + s·(l − x) =
+//! x̂ + s·(l − x̂) + (1 − s)·η, 0 ≤ s ≤ 1; along a direction it is x̂ + s·l + η, s ≥ 0. Either way
+//! it stays within δ of the segment from x̂, so what it meets, the segment from x̂ meets when
+//! every box is blown up by δ. A slab bound is then (b − (x̂ ± δ))/λ, and x̂ ± δ is rounded
+//! outwards once per segment.
+//!
+//! The slab test: with u = 2^-53, b − (x̂ ± δ) rounds once, λ = l − x̂ has rounded once before it
+//! came here, its reciprocal rounds and the product rounds: a relative error of at most γ₄ on each
+//! bound, and signs and zeros are right. As in the parent module κ must be at least
+//! (1 + γ₄)/((1 − γ₄)(1 − u)) = 1 + 9u + O(u²); κ = 1 + 16u. The reach 1 is compared with the
+//! same κ.
+//!
+//! Range: a component of λ of magnitude 2^-400…2^400 is taken as it is, so that reciprocals and
+//! products are finite (numerators are below 2^129) and only the lowest products underflow, by at
+//! most 2^-1074 each, for which 2^-960 is added to the far bound. A component of 0 gets +∞ and is
+//! handled as in the parent module. Any other gets NaN, for which `larger` and `smaller` leave the
+//! bound as it is: the axis constrains nothing, and the worst that happens is that all is visited.
+
+use super::super::entries::LeafTriangle;
+use super::super::node::Tree;
+use super::{Pending, larger, smaller};
+
+/// κ = 1 + 16u, u = 2^-53: see the module's derivation.
+const PADDING: f64 = 1.0 + 8.0 * f64::EPSILON;
+
+/// 2^-960: more than products lose by underflow.
+const UNDERFLOW: f64 = f64::MIN_POSITIVE * (1_u64 << 62) as f64;
+
+/// Smallest and largest magnitude of a component of λ that constrains the walk: 2^±400.
+const RANGE: [f64; 2] = [f64::from_bits((1023 - 400) << 52), f64::from_bits((1023 + 400) << 52)];
+
+/// A segment as the slab test wants it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Segment {
+    /// Per axis, x̂ moved by δ so that a box is entered earlier, and so that it is left later.
+    origin: [[f64; 3]; 2],
+    reciprocal: [f64; 3],
+    /// Per axis, the side of a box that the segment meets first: 0 lower, 1 upper.
+    near_side: [usize; 3],
+    /// Largest s, padded.
+    reach: f64,
+}
+
+impl Segment {
+    /// The segment from within `error` (per axis) of `start`; `toward` is good to a relative u per
+    /// component. It ends at s = `reach`, 1 or infinity. Numbers that are not finite make a segment
+    /// that meets everything.
+    pub(crate) fn new(start: [f64; 3], error: f64, toward: [f64; 3], reach: f64) -> Self {
+        let known = error.is_finite() && start.iter().all(|c| c.is_finite());
+        let near_side = toward.map(|d| usize::from(d < 0.0));
+        let [above, below] =
+            [start.map(|c| (c + error).next_up()), start.map(|c| (c - error).next_down())];
+        let pick = |side: usize| {
+            std::array::from_fn(|k| if near_side[k] == side { above[k] } else { below[k] })
+        };
+        let reciprocal = toward.map(|d| {
+            if !known {
+                f64::NAN
+            } else if d == 0.0 {
+                f64::INFINITY
+            } else if (RANGE[0]..=RANGE[1]).contains(&d.abs()) {
+                1.0 / d
+            } else {
+                f64::NAN
+            }
+        });
+        Self { origin: [pick(0), pick(1)], reciprocal, near_side, reach: reach * PADDING }
+    }
+
+    /// Bounds of s inside each of two boxes, `[near, far]`; far is padded and at most the reach.
+    #[inline(always)]
+    fn meet(&self, planes: &[[[f32; 2]; 3]; 2]) -> [[f64; 2]; 2] {
+        let mut near = [0.0; 2];
+        let mut far = [f64::INFINITY; 2];
+        for (axis, &reciprocal) in self.reciprocal.iter().enumerate() {
+            let side = self.near_side[axis] & 1;
+            let (first, last) = (planes[side][axis], planes[1 - side][axis]);
+            let [enter, leave] = [self.origin[0][axis], self.origin[1][axis]];
+            for child in 0..2 {
+                near[child] = larger((f64::from(first[child]) - enter) * reciprocal, near[child]);
+                far[child] = smaller((f64::from(last[child]) - leave) * reciprocal, far[child]);
+            }
+        }
+        [near, far.map(|far| smaller(far * PADDING + UNDERFLOW, self.reach))]
+    }
+}
+
+impl Tree {
+    /// Calls `found` with the triangles of every leaf that the segment meets, nearer boxes first
+    /// where that is cheap to know, until it says true.
+    pub(in super::super) fn search(
+        &self,
+        segment: &Segment,
+        pending: &mut Pending,
+        mut found: impl FnMut(&[LeafTriangle]) -> bool,
+    ) {
+        let Some(mut child) = self.root else { return };
+        let waiting = &mut pending.0;
+        waiting.clear();
+        loop {
+            if child.count > 0 {
+                let range = child.first as usize..(child.first + child.count) as usize;
+                if found(&self.triangles[range]) {
+                    return;
+                }
+            } else {
+                let node = &self.nodes[child.first as usize];
+                let [near, far] = segment.meet(&node.planes);
+                let met: [bool; 2] = std::array::from_fn(|i| near[i] <= far[i]);
+                let first = usize::from(near[1] < near[0]);
+                match met {
+                    [true, true] => {
+                        waiting.push((node.children[1 - first], near[1 - first]));
+                        child = node.children[first];
+                        continue;
+                    }
+                    [true, false] => {
+                        child = node.children[0];
+                        continue;
+                    }
+                    [false, true] => {
+                        child = node.children[1];
+                        continue;
+                    }
+                    [false, false] => {}
+                }
+            }
+            match waiting.pop() {
+                Some((next, _)) => child = next,
+                None => return,
+            }
+        }
+    }
+}
