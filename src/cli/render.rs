@@ -20,7 +20,7 @@ use truecast::render::{
 use truecast::scene::{Overrides, Scene};
 
 /// The scene that is rendered when none is named.
-const DEFAULT_SCENE: &str = include_str!("../../scenes/default.toml");
+pub(super) const DEFAULT_SCENE: &str = include_str!("../../scenes/default.toml");
 
 /// One written file.
 struct Written {
