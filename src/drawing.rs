@@ -53,7 +53,7 @@ pub enum Mark {
         /// Its colour.
         ink: Ink,
     },
-    /// One line of text; every character is [`glyphs::SIDE`] units wide.
+    /// One line of text; every character is [`glyphs::WIDTH`] units wide.
     Text {
         /// Where it stands.
         at: Point,

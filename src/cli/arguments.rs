@@ -225,7 +225,6 @@ pub(super) struct SheetArguments {
 #[derive(Debug, Args)]
 pub(super) struct LobeArguments {
     /// Scene file (TOML) with the material; without it the built-in default scene
-    #[arg(requires = "material")]
     pub(super) scene: Option<PathBuf>,
     /// A material of the scene; instead of --kd, --ks and --ns
     #[arg(long, value_name = "NAME", conflicts_with_all = ["kd", "ks", "ns"])]

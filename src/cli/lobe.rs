@@ -83,6 +83,11 @@ fn reflectance(arguments: &LobeArguments) -> Result<Reflectance, Failure> {
         SpecularWord::Phong => Lobe::Phong,
     });
     let Some(name) = &arguments.material else {
+        if let Some(scene) = &arguments.scene {
+            let scene = scene.display();
+            let message = format!("which material of {scene}? name it with --material NAME");
+            return Err(Failure::usage(message));
+        }
         // The command line's own rules demand all three without a material.
         return Ok(Reflectance {
             kd: arguments.kd.unwrap_or_default(),
@@ -129,12 +134,12 @@ fn peak_line(reflectance: &Reflectance, light_deg: f64) -> String {
         return "no specular peak\n".to_owned();
     };
     let side = |width: Option<f64>| match width {
-        Some(width) => format!("{width:.3}"),
-        None => "beyond the surface".to_owned(),
+        Some(width) => format!("{width:.3} degrees away"),
+        None => "nowhere above the surface".to_owned(),
     };
     let [low, high] = peak.half_width_deg.map(side);
     format!(
-        "specular peak at {} degrees; half of it at {low} degrees towards -90, {high} towards 90\n",
+        "specular peak at {} degrees; half of it {low} towards -90, {high} towards 90\n",
         peak.view_deg
     )
 }

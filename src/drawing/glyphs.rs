@@ -1,13 +1,18 @@
-//! Text in pixels: an 8×8 bitmap font, enlarged by whole factors.
+//! Text in pixels: an 8×8 bitmap font, twice as high as wide, enlarged by whole factors.
 //!
+//! The font was drawn for pixels that are higher than wide: its upright strokes are two pixels
+//! wide, its level ones a single pixel high. Every row counts twice here, which makes both alike.
 //! ASCII, Latin-1 and Greek; any other character is shown as a box, never left out. Every character
 //! is equally wide. No kerning, no combining characters. Source of the font: crate `font8x8`.
 
 use font8x8::{BASIC_FONTS, GREEK_FONTS, LATIN_FONTS, UnicodeFonts};
 use image::{Rgb, RgbImage};
 
-/// Width and height of a character at scale 1, pixels.
-pub const SIDE: u32 = 8;
+/// Width of a character at scale 1, pixels.
+pub const WIDTH: u32 = 8;
+
+/// Height of a character at scale 1, pixels.
+pub const HEIGHT: u32 = 16;
 
 /// What stands for a character that the font lacks.
 const BOX: [u8; 8] = [0x7F, 0x41, 0x41, 0x41, 0x41, 0x41, 0x7F, 0x00];
@@ -23,7 +28,7 @@ pub fn glyph(character: char) -> [u8; 8] {
 
 /// Width of a line of text, pixels.
 pub fn text_width(text: &str, scale: u32) -> u32 {
-    text.chars().count() as u32 * SIDE * scale
+    text.chars().count() as u32 * WIDTH * scale
 }
 
 /// Calls `pixel` with column and row of every pixel of a line of text whose top left corner is
@@ -31,10 +36,10 @@ pub fn text_width(text: &str, scale: u32) -> u32 {
 pub fn for_each_pixel(text: &str, scale: u32, mut pixel: impl FnMut(u32, u32)) {
     for (index, character) in text.chars().enumerate() {
         let rows = glyph(character);
-        for y in 0..SIDE * scale {
-            for x in 0..SIDE * scale {
+        for y in 0..HEIGHT * scale {
+            for x in 0..WIDTH * scale {
                 if is_inked(&rows, x, y, scale) {
-                    pixel(index as u32 * SIDE * scale + x, y);
+                    pixel(index as u32 * WIDTH * scale + x, y);
                 }
             }
         }
@@ -86,7 +91,8 @@ pub fn wrap(text: &str, columns: usize) -> Vec<String> {
 /// stairs of large squares.
 fn is_inked(rows: &[u8; 8], x: u32, y: u32, scale: u32) -> bool {
     let bit = |column: i64, row: i64| {
-        (0..8).contains(&column) && (0..8).contains(&row) && rows[row as usize] >> column & 1 == 1
+        let is_inside = (0..8).contains(&column) && (0..16).contains(&row);
+        is_inside && rows[row as usize / 2] >> column & 1 == 1
     };
     let (column, row) = (i64::from(x / scale), i64::from(y / scale));
     let own = bit(column, row);
@@ -123,7 +129,7 @@ mod tests {
         let mut large = 0;
         for_each_pixel("|H", 2, |x, y| {
             large += 1;
-            assert!(x < 32 && y < 16);
+            assert!(x < 32 && y < 32);
         });
         // Straight strokes have no steps to cut.
         assert_eq!(large, 4 * small.len());

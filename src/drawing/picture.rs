@@ -81,7 +81,7 @@ fn draw_text(pixmap: &mut Pixmap, at: (Point, Anchor), ink: Ink, text: &str, sca
         Anchor::End => x - width,
     };
     let pixel = |units: f64| (units * f64::from(scale)).round() as i64;
-    let (left, top) = (pixel(left), pixel(y - 0.5 * f64::from(glyphs::SIDE)));
+    let (left, top) = (pixel(left), pixel(y - 0.5 * f64::from(glyphs::HEIGHT)));
     let (columns, rows) = (i64::from(pixmap.width()), i64::from(pixmap.height()));
     let color = ColorU8::from_rgba(ink[0], ink[1], ink[2], 255).premultiply();
     let pixels = pixmap.pixels_mut();

@@ -6,8 +6,8 @@
 use super::{Anchor, Drawing, Ink, Mark, Point, glyphs};
 use std::fmt::Write as _;
 
-/// Font size, page units, whose monospaced advance (0.6 of it) is about [`glyphs::SIDE`].
-const FONT_SIZE: f64 = 13.0;
+/// Font size, page units, whose monospaced advance (0.6 of it) is about [`glyphs::WIDTH`].
+const FONT_SIZE: f64 = 14.0;
 
 /// From the vertical middle of a text to its base line: half a capital's height.
 const BASE_LINE: f64 = 0.35 * FONT_SIZE;

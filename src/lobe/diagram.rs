@@ -9,7 +9,7 @@ use crate::color::LinearRgb;
 use crate::drawing::{Anchor, Drawing, Ink, Point};
 
 const WIDTH: u16 = 640;
-const HEIGHT: u16 = 476;
+const HEIGHT: u16 = 492;
 
 /// Where the surface is hit, page units.
 const ORIGIN: Point = [320.0, 352.0];
@@ -102,17 +102,20 @@ fn grid(drawing: &mut Drawing, scale: f64) {
         drawing.line(circle.collect(), GRID, 1.0);
         let value = f64::from(quarter) / (4.0 * scale);
         drawing.text(
-            [ORIGIN[0] + radius, ORIGIN[1] + 12.0],
+            [ORIGIN[0] + radius, ORIGIN[1] + 14.0],
             Anchor::Middle,
             FAINT,
             format!("{value}"),
         );
     }
-    for degree in (-90..=90).step_by(30) {
+    for degree in (-90_i32..=90).step_by(30) {
         let degrees = f64::from(degree);
         drawing.line(vec![ORIGIN, at(degrees, UNIT)], GRID, 1.0);
         let text = format!("{degree}°");
-        drawing.text(at(degrees, UNIT + 22.0), Anchor::Middle, FAINT, text);
+        let [x, y] = at(degrees, UNIT + 24.0);
+        // Those of the surface itself stand above its line.
+        let lift = if degree.abs() == 90 { 12.0 } else { 0.0 };
+        drawing.text([x, y - lift], Anchor::Middle, FAINT, text);
     }
 }
 
@@ -163,11 +166,11 @@ fn captions(
         (SUM, "sum".to_owned()),
     ];
     for (line, (ink, text)) in lines.into_iter().enumerate() {
-        let y = 390.0 + 18.0 * line as f64;
+        let y = 394.0 + 20.0 * line as f64;
         drawing.line(vec![[20.0, y], [44.0, y]], ink, if ink == SUM { 4.5 } else { 2.0 });
         drawing.text([56.0, y], Anchor::Start, TEXT, text);
     }
-    let y = 390.0 + 18.0 * 3.0;
+    let y = 398.0 + 20.0 * 3.0;
     drawing.text(
         [16.0, y],
         Anchor::Start,
@@ -175,7 +178,7 @@ fn captions(
         format!("Light L at {}° from the normal N, mirror direction R opposite.", short(light_deg)),
     );
     drawing.text(
-        [16.0, y + 16.0],
+        [16.0, y + 20.0],
         Anchor::Start,
         FAINT,
         format!(

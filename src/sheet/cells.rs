@@ -7,7 +7,7 @@ use super::{Cell, MAX_PIXELS, Sheet, overrides, trace};
 use crate::scene::error::{Fault, Place, SceneError};
 use crate::scene::file::text::{Faults, line_and_column};
 use crate::scene::{Overrides, Scene, SceneErrors};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use toml::Value;
 
@@ -24,12 +24,13 @@ impl Sheet {
         })?;
         let mut faults = Faults::new(path, &text);
         let file = SheetFile::read(&mut faults);
-        let mut texts = Texts::default();
+        let mut shared = Shared::default();
         let mut cells = Vec::new();
         if faults.errors.is_empty() {
             for (cell, number) in file.cells.iter().zip(1..) {
-                let scene = Reader { sheet: &file, cell, number, faults: &mut faults };
-                if let Some(scene) = scene.read(&mut texts) {
+                let shared = &mut shared;
+                let reader = Reader { sheet: &file, cell, number, faults: &mut faults, shared };
+                if let Some(scene) = reader.read() {
                     cells.push(Cell { label: cell.label.clone(), scene });
                 }
             }
@@ -56,8 +57,13 @@ impl Sheet {
     }
 }
 
-/// The texts of scene files, each read once.
-type Texts = HashMap<PathBuf, Result<String, (Fault, String)>>;
+/// What the cells of a sheet share: a scene's text is read once, and what is wrong with it is said
+/// once, with the first of its cells.
+#[derive(Default)]
+struct Shared {
+    texts: HashMap<PathBuf, Result<String, (Fault, String)>>,
+    reported: HashSet<String>,
+}
 
 /// The text of a file, or whose fault it is that there is none, and why.
 fn read_text(path: &Path) -> Result<String, (Fault, String)> {
@@ -74,57 +80,55 @@ struct Reader<'a, 'f, 't> {
     /// Counted from 1.
     number: usize,
     faults: &'f mut Faults<'t>,
+    shared: &'f mut Shared,
 }
 
 impl Reader<'_, '_, '_> {
     /// The cell's scene; `None` when it has faults, which are reported.
-    fn read(mut self, texts: &mut Texts) -> Option<Scene> {
+    fn read(mut self) -> Option<Scene> {
         let Some(named) = self.cell.scene.as_ref().or(self.sheet.scene.as_ref()) else {
-            let message = format!("{} has no `scene`, and the sheet has none", self.title());
-            self.faults.at(&self.cell.span, message);
+            let place = self.faults.place(&self.cell.span);
+            self.report(SceneError::scene(place, "neither the cell nor the sheet has a `scene`"));
             return None;
         };
         let folder = self.faults.file.parent().unwrap_or(Path::new(""));
         let path = folder.join(named.get_ref());
-        let text = match texts.entry(path.clone()).or_insert_with(|| read_text(&path)) {
+        let read = self.shared.texts.entry(path.clone()).or_insert_with(|| read_text(&path));
+        let text = match read.clone() {
             Ok(text) => text,
             Err((fault, why)) => {
                 let place = self.faults.place(&named.span());
                 let message = format!("the scene file `{}` cannot be read: {why}", path.display());
-                let reading = SceneError::reading(place, message);
-                self.report(SceneError { fault: *fault, ..reading });
+                self.report(SceneError { fault, ..SceneError::reading(place, message) });
                 return None;
             }
         };
+        let changed =
+            if self.cell.set.is_empty() { None } else { Some(self.change(&path, &text)?) };
         let base = path.parent().unwrap_or(Path::new(""));
-        let resolution = Overrides { resolution: self.sheet.size };
-        let changed = if self.cell.set.is_empty() { None } else { Some(self.change(&path, text)?) };
-        let read = changed.as_deref().unwrap_or(text);
-        let loaded = Scene::from_toml(read, &path, base, &resolution);
-        let traced = |place: Place| match &changed {
-            Some(changed) => self.trace(&path, text, changed, place),
+        let overrides = Overrides { resolution: self.sheet.size };
+        let scene = Scene::from_toml(changed.as_deref().unwrap_or(&text), &path, base, &overrides);
+        let traced = |reader: &Self, place: Place| match &changed {
+            Some(changed) => reader.trace(&path, &text, changed, place),
             None => place,
         };
-        match loaded {
+        match scene {
             Ok(mut scene) => {
-                let warnings = std::mem::take(&mut scene.warnings).into_iter();
-                let warnings = warnings.map(|warning| match placed(&warning, &path) {
-                    Some((place, message)) => format!("{}: {message}", traced(place)),
-                    None => warning,
-                });
-                for warning in warnings.collect::<Vec<_>>() {
-                    if !self.faults.warnings.contains(&warning) {
+                for warning in std::mem::take(&mut scene.warnings) {
+                    let warning = match placed(&warning, &path) {
+                        Some((place, message)) => format!("{}: {message}", traced(&self, place)),
+                        None => warning,
+                    };
+                    if self.shared.reported.insert(warning.clone()) {
                         self.faults.warnings.push(warning);
                     }
                 }
                 Some(scene)
             }
             Err(errors) => {
-                let errors = errors.0.into_iter();
-                let errors = errors.map(|e| SceneError { place: traced(e.place.clone()), ..e });
-                for error in errors.collect::<Vec<_>>() {
-                    let message = format!("{} (in {})", error.message, self.title());
-                    self.report(SceneError { message, ..error });
+                for error in errors.0 {
+                    let place = traced(&self, error.place.clone());
+                    self.report(SceneError { place, ..error });
                 }
                 None
             }
@@ -137,16 +141,11 @@ impl Reader<'_, '_, '_> {
         format!("cell {}{label} of {}", self.number, self.faults.file.display())
     }
 
-    /// Reports a fault; one of a scene file that several cells share is reported once.
+    /// Reports a fault, with the name of the cell.
     fn report(&mut self, error: SceneError) {
-        let is_known = self.faults.errors.iter().any(|known| {
-            let plain = |error: &SceneError| {
-                error.message.split(" (in cell ").next().unwrap_or_default().to_owned()
-            };
-            known.place == error.place && plain(known) == plain(&error)
-        });
-        if !is_known {
-            self.faults.errors.push(error);
+        if self.shared.reported.insert(error.to_string()) {
+            let message = format!("{} (in {})", error.message, self.title());
+            self.faults.errors.push(SceneError { message, ..error });
         }
     }
 
@@ -156,7 +155,7 @@ impl Reader<'_, '_, '_> {
             Ok(table) => Value::Table(table),
             Err(error) => {
                 let (line, column) = line_and_column(text, error.span().map_or(0, |s| s.start));
-                let message = format!("not TOML: {} (in {})", error.message(), self.title());
+                let message = format!("not TOML: {}", error.message());
                 self.report(SceneError::scene(Place::at(path, line, column), message));
                 return None;
             }
@@ -165,9 +164,8 @@ impl Reader<'_, '_, '_> {
         for entry in &self.cell.set {
             if let Err(misled) = overrides::set(&mut root, &entry.path, entry.value.clone()) {
                 let place = self.faults.place(&entry.span);
-                let message = format!("{} (in {})", misled.message, self.title());
-                let error = SceneError::scene(place, message);
-                self.faults.errors.push(SceneError { help: misled.help, ..error });
+                let error = SceneError::scene(place, misled.message);
+                self.report(SceneError { help: misled.help, ..error });
             }
         }
         if self.faults.errors.len() > before {
@@ -176,8 +174,8 @@ impl Reader<'_, '_, '_> {
         match toml::to_string(&root) {
             Ok(text) => Some(text),
             Err(error) => {
-                let message = format!("{error} (in {})", self.title());
-                self.faults.at(&self.cell.span, message);
+                let place = self.faults.place(&self.cell.span);
+                self.report(SceneError::scene(place, error.to_string()));
                 None
             }
         }

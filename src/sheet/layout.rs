@@ -1,11 +1,11 @@
 //! Where everything of a sheet stands, pixels, y downwards.
 //!
 //! Columns are as wide as the widest cell, rows as high as the highest one plus the labels below;
-//! smaller cells stand in the middle of their place. Texts of one kind are twice as large as the
-//! font if each then fits one line, else they have its own size and are broken into lines.
+//! smaller cells stand in the middle of their place. Texts that are too long are broken into lines.
+//! The title is twice as large as the labels if it then fits one line.
 
 use super::Sheet;
-use crate::drawing::glyphs::{self, SIDE};
+use crate::drawing::glyphs::{self, HEIGHT, WIDTH};
 
 /// Around everything.
 pub const MARGIN: u32 = 16;
@@ -30,11 +30,9 @@ pub struct Texts {
 }
 
 impl Texts {
-    /// Texts that fit `width` pixels.
-    fn fit<'t>(texts: impl Iterator<Item = &'t str> + Clone, width: u32) -> Self {
-        let scale =
-            if texts.clone().all(|text| glyphs::text_width(text, 2) <= width) { 2 } else { 1 };
-        let columns = (width / (SIDE * scale)) as usize;
+    /// Texts broken to fit `width` pixels.
+    fn fit<'t>(texts: impl Iterator<Item = &'t str>, width: u32, scale: u32) -> Self {
+        let columns = (width / (WIDTH * scale)) as usize;
         let lines = |text: &str| match text.trim() {
             "" => Vec::new(),
             text => glyphs::wrap(text, columns),
@@ -44,7 +42,7 @@ impl Texts {
 
     /// From the top of a line to the top of the next.
     pub fn line_height(&self) -> u32 {
-        SIDE * self.scale + LEADING
+        HEIGHT * self.scale + LEADING
     }
 
     /// Height of so many lines.
@@ -94,11 +92,12 @@ impl Layout {
         let place = sizes.fold([1, 1], |[width, height], size| {
             [size.width().max(width), size.height().max(height)]
         });
-        let texts = |list: &'_ [String], width| Texts::fit(list.iter().map(String::as_str), width);
+        let texts =
+            |list: &'_ [String], width| Texts::fit(list.iter().map(String::as_str), width, 1);
         let row_labels = texts(&sheet.row_labels, ROW_LABEL_WIDTH);
         let column_labels = texts(&sheet.column_labels, place[0]);
         let labels = sheet.cells.iter().map(|cell| cell.label.as_deref().unwrap_or_default());
-        let cell_labels = Texts::fit(labels, place[0]);
+        let cell_labels = Texts::fit(labels, place[0], 1);
 
         // Columns from the left.
         let mut x = MARGIN;
@@ -108,7 +107,9 @@ impl Layout {
         let lefts: Vec<u32> =
             (0..sheet.columns as u32).map(|column| x + column * (place[0] + GAP)).collect();
         let width = x + sheet.columns as u32 * (place[0] + GAP) - GAP + MARGIN;
-        let title = Texts::fit(sheet.title.as_deref().into_iter(), width - 2 * MARGIN);
+        let (title, room) = (sheet.title.as_deref(), width - 2 * MARGIN);
+        let scale = if title.is_some_and(|t| glyphs::text_width(t, 2) <= room) { 2 } else { 1 };
+        let title = Texts::fit(title.into_iter(), room, scale);
 
         // Rows from the top; a row without labels of cells leaves no room for them.
         let mut y = MARGIN;

@@ -22,6 +22,8 @@ mod foreign_cameras;
 mod layers;
 // Every row of the lighting systems by its name.
 mod lighting;
+// Goniometric diagrams: curves by an independent formula, SVG and PNG of the same marks.
+mod lobe;
 // OBJ and MTL, one test per misreading.
 mod obj;
 // The rasterizer on golden and hard scenes: tile sizes, windows, threads.
@@ -38,6 +40,8 @@ mod scene_keys;
 mod scene_load;
 // The scenes that come with the project.
 mod scenes;
+// Sheets: layout, cells that are plain renders, overrides, errors that name the cell.
+mod sheet;
 // Every special float in every number of a scene: a finite picture or an error with a place.
 mod specials;
 // The stability mask against moved samples and moved vertices.
