@@ -1,5 +1,11 @@
 //! The command line as typed.
 
+mod lobe;
+mod sheet;
+
+pub(super) use lobe::{LobeArguments, SpecularWord};
+pub(super) use sheet::SheetArguments;
+
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use truecast::check::foreign::depth::DEPTH_TOLERANCE_RELATIVE;
@@ -204,68 +210,6 @@ pub(super) struct ExplainArguments {
     pub(super) json: bool,
 }
 
-#[derive(Debug, Args)]
-pub(super) struct SheetArguments {
-    /// Sheet file (TOML): scenes, and what each cell changes in its scene
-    pub(super) sheet: PathBuf,
-    /// Output file, .png [default: NAME.png after the sheet file]
-    #[arg(short, long = "output", value_name = "FILE.png")]
-    pub(super) output: Option<PathBuf>,
-    /// Number of threads; 0 is one per core
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub(super) threads: usize,
-    /// Print one JSON document on stdout
-    #[arg(long)]
-    pub(super) json: bool,
-    /// No progress bar, no summary; errors only
-    #[arg(long)]
-    pub(super) quiet: bool,
-}
-
-#[derive(Debug, Args)]
-pub(super) struct LobeArguments {
-    /// Scene file (TOML) with the material; without it the built-in default scene
-    pub(super) scene: Option<PathBuf>,
-    /// A material of the scene; instead of --kd, --ks and --ns
-    #[arg(long, value_name = "NAME", conflicts_with_all = ["kd", "ks", "ns"])]
-    pub(super) material: Option<String>,
-    /// Diffuse reflection, one number or three
-    #[arg(long, value_name = "R,G,B", value_parser = parse_coefficients,
-          required_unless_present = "material")]
-    pub(super) kd: Option<[f64; 3]>,
-    /// Specular reflection, one number or three
-    #[arg(long, value_name = "R,G,B", value_parser = parse_coefficients,
-          required_unless_present = "material")]
-    pub(super) ks: Option<[f64; 3]>,
-    /// Specular exponent
-    #[arg(long, value_name = "N", value_parser = parse_coefficient,
-          required_unless_present = "material")]
-    pub(super) ns: Option<f64>,
-    /// Angle between the normal and the light, -180 to 180 degrees
-    #[arg(long, value_name = "DEG", value_parser = parse_angle, allow_negative_numbers = true)]
-    pub(super) light_angle: f64,
-    /// Whose specular lobe [default: the scene's, else blinn]
-    #[arg(long, value_enum)]
-    pub(super) specular: Option<SpecularWord>,
-    /// Multiply the specular term by N.L; a scene may ask for it too
-    #[arg(long)]
-    pub(super) specular_cosine: bool,
-    /// Output file; .svg or .png by extension; may be repeated [default: lobe.svg, with --json none]
-    #[arg(short, long = "output", value_name = "FILE")]
-    pub(super) output: Vec<PathBuf>,
-    /// Print one JSON document on stdout: every degree, every channel
-    #[arg(long)]
-    pub(super) json: bool,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum SpecularWord {
-    /// (N.H)^ns
-    Blinn,
-    /// (R.V)^ns
-    Phong,
-}
-
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum PathWord {
     /// Rays through a BVH
@@ -332,27 +276,4 @@ fn parse_tolerance(text: &str) -> Result<f64, String> {
     tolerance
         .filter(|tolerance| tolerance.is_finite() && *tolerance >= 0.0)
         .ok_or_else(|| "expected a number that is not negative, for example 1e-6".to_owned())
-}
-
-fn parse_coefficient(text: &str) -> Result<f64, String> {
-    let number = text.trim().parse::<f64>().ok();
-    number
-        .filter(|number| number.is_finite() && *number >= 0.0)
-        .ok_or_else(|| "expected a finite number, at least 0".to_owned())
-}
-
-fn parse_coefficients(text: &str) -> Result<[f64; 3], String> {
-    let numbers: Result<Vec<f64>, String> = text.split(',').map(parse_coefficient).collect();
-    match numbers.as_deref() {
-        Ok(&[grey]) => Ok([grey; 3]),
-        Ok(&[red, green, blue]) => Ok([red, green, blue]),
-        _ => Err("expected one number or three R,G,B, each finite and at least 0".to_owned()),
-    }
-}
-
-fn parse_angle(text: &str) -> Result<f64, String> {
-    let angle = text.trim().parse::<f64>().ok();
-    angle
-        .filter(|angle| (-180.0..=180.0).contains(angle))
-        .ok_or_else(|| "expected degrees from -180 to 180".to_owned())
 }
