@@ -127,12 +127,12 @@ mod tests {
         let mut small = vec![];
         for_each_pixel("|H", 1, |x, y| small.push((x, y)));
         let mut large = 0;
-        for_each_pixel("|H", 2, |x, y| {
+        for_each_pixel("|H", 3, |x, y| {
             large += 1;
-            assert!(x < 32 && y < 32);
+            assert!(x < 48 && y < 48);
         });
-        // Straight strokes have no steps to cut.
-        assert_eq!(large, 4 * small.len());
+        // Odd scales cut no corners.
+        assert_eq!(large, 9 * small.len());
     }
 
     #[test]
