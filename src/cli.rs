@@ -8,10 +8,12 @@ mod check;
 mod explain;
 mod export;
 mod failure;
+mod lobe;
 mod output;
 mod pixel;
 mod progress;
 mod render;
+mod sheet;
 
 use arguments::{Arguments, Command};
 use clap::Parser;
@@ -49,6 +51,8 @@ pub(crate) fn run() -> ExitCode {
         Command::Export(arguments) => export::run(&arguments, &writing),
         Command::Pixel(arguments) => pixel::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
+        Command::Sheet(arguments) => sheet::run(&arguments, &writing),
+        Command::Lobe(arguments) => lobe::run(&arguments, &writing),
     };
     match status {
         Ok(status) => ExitCode::from(status),

@@ -14,7 +14,7 @@ mod write;
 pub use self::error::FilmError;
 pub use self::exr::{decode_exr, encode_exr};
 pub use self::npy::encode_npy_ids;
-pub use self::png::{ClipCount, encode_picture, encode_png};
+pub use self::png::{ClipCount, encode_picture, encode_png, srgb_picture};
 pub use self::read::{NumberPlane, Numbers, PackedOrder, load_numbers};
 pub use self::write::{
     Format, check_target, check_writable, format_of, load_exr, save, write_atomic,

@@ -39,14 +39,15 @@
 //!
 //! | floor | modules | what they hold |
 //! |---|---|---|
-//! | check | [`check`], [`export`] | both paths compared, the arbiter's word, blame, difference pictures; the oracle bundle |
+//! | check | [`check`], [`export`], [`sheet`] | both paths compared, the arbiter's word, blame, difference pictures; the oracle bundle; sheets of pictures |
 //! | frame | [`render`] | scene and options in, film out: the one place that knows both paths and shading |
+//! | lobe | [`lobe`] | goniometric diagrams of a reflectance |
 //! | shading | [`shade`] | effects, the equation, surface points |
 //! | answers | [`mod@cast`], [`raster`], [`exact`] | three answerers that do not know each other |
 //! | structure | [`accel`] | BVHs built by obvhs, our own conservative boxes; only `cast` uses it |
 //! | shapes of an answer | [`visibility`], [`film`] | buffers; EXR, PNG, NPY |
 //! | scene | [`scene`] | `SceneFile` as written, `Scene` as meant; OBJ, shapes, camera, lights |
-//! | words | [`pixel`], [`color`], [`mesh`], [`mutant`] | grids, ids, triangles; the tests' planted mistakes |
+//! | words | [`pixel`], [`color`], [`mesh`], [`drawing`], [`mutant`] | grids, ids, triangles; marks on a page; the tests' planted mistakes |
 //!
 //! To read the program, open `lib.rs`, `visibility.rs`, `cast.rs`, `raster.rs`, `shade.rs` and
 //! `check.rs` in this order.
@@ -109,9 +110,11 @@ pub mod accel;
 pub mod cast;
 pub mod check;
 pub mod color;
+pub mod drawing;
 pub mod exact;
 pub mod export;
 pub mod film;
+pub mod lobe;
 pub mod mesh;
 pub mod mutant;
 pub mod pixel;
@@ -119,4 +122,5 @@ pub mod raster;
 pub mod render;
 pub mod scene;
 pub mod shade;
+pub mod sheet;
 pub mod visibility;

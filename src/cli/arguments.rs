@@ -1,5 +1,11 @@
 //! The command line as typed.
 
+mod lobe;
+mod sheet;
+
+pub(super) use lobe::{LobeArguments, SpecularWord};
+pub(super) use sheet::SheetArguments;
+
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 use truecast::check::foreign::depth::DEPTH_TOLERANCE_RELATIVE;
@@ -32,6 +38,10 @@ pub(super) enum Command {
     Pixel(PixelArguments),
     /// Say which effects the scene calls for, and its resolved camera and switches
     Explain(ExplainArguments),
+    /// Lay several renders out in one labelled PNG
+    Sheet(SheetArguments),
+    /// Draw the goniometric diagram of a reflectance: its polar curves for one light
+    Lobe(LobeArguments),
 }
 
 #[derive(Debug, Args)]

@@ -21,7 +21,7 @@ use truecast::scene::{Overrides, Scene};
 use truecast::shade::Effects;
 
 /// The scene that is rendered when none is named.
-const DEFAULT_SCENE: &str = include_str!("../../scenes/default.toml");
+pub(super) const DEFAULT_SCENE: &str = include_str!("../../scenes/default.toml");
 
 /// One written file.
 struct Written {

@@ -27,6 +27,16 @@ pub struct ClipCount {
 /// [`FilmError::Plane`] without those planes, [`FilmError::NotFinite`] for the first infinite or
 /// NaN value by rows, [`FilmError::Inconsistent`] for a broken film.
 pub fn encode_png(film: &Film) -> Result<(Vec<u8>, ClipCount), FilmError> {
+    let (picture, clipped) = srgb_picture(film)?;
+    Ok((encode_picture(&picture)?, clipped))
+}
+
+/// The picture that [`encode_png`] encodes.
+///
+/// # Errors
+///
+/// As [`encode_png`].
+pub fn srgb_picture(film: &Film) -> Result<(image::RgbImage, ClipCount), FilmError> {
     check_film(film)?;
     let planes = [float_plane(film, "R")?, float_plane(film, "G")?, float_plane(film, "B")?];
     let width = film.window.width() as usize;
@@ -53,7 +63,9 @@ pub fn encode_png(film: &Film) -> Result<(Vec<u8>, ClipCount), FilmError> {
         clipped.above += counted.above;
         clipped.below += counted.below;
     }
-    Ok((compress(film.window.width(), film.window.height(), &codes)?, clipped))
+    let picture = image::RgbImage::from_raw(film.window.width(), film.window.height(), codes);
+    let misfit = || FilmError::Encode { format: "PNG", reason: "it has no pixels".to_owned() };
+    Ok((picture.ok_or_else(misfit)?, clipped))
 }
 
 /// An 8-bit sRGB picture, as it is, as the bytes of a PNG with an sRGB chunk.

@@ -22,6 +22,7 @@ const ALLOWED: &[Allowed] = &[
     ("pixel", &[]),
     ("color", &[]),
     ("mesh", &["color"]),
+    ("drawing", &[]),
     ("mutant", &[]),
     ("scene", &["pixel", "color", "mesh"]),
     ("visibility", &["pixel", "mesh"]),
@@ -31,6 +32,7 @@ const ALLOWED: &[Allowed] = &[
     ("raster", &["pixel", "mesh", "mutant", "scene", "visibility"]),
     ("exact", &["pixel", "mesh", "mutant", "scene", "visibility"]),
     ("shade", &["pixel", "color", "mesh", "scene", "visibility", "film"]),
+    ("lobe", &["color", "drawing", "scene", "shade"]),
     (
         "render",
         &[
@@ -80,6 +82,7 @@ const ALLOWED: &[Allowed] = &[
             "render",
         ],
     ),
+    ("sheet", &["pixel", "color", "drawing", "scene", "film", "render"]),
     ("cli", EVERYTHING),
     ("main", EVERYTHING),
     ("lib", EVERYTHING),

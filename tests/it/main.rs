@@ -28,6 +28,8 @@ mod light_frames;
 mod lighting;
 // Presets of materials, and surfaces that no light touches.
 mod material_presets;
+// Goniometric diagrams: curves by an independent formula, SVG and PNG of the same marks.
+mod lobe;
 // OBJ and MTL, one test per misreading.
 mod obj;
 // What is seen through surfaces: exact order by both paths, and what comes of it in colour.
@@ -48,6 +50,8 @@ mod scene_load;
 mod scenes;
 // Hard shadows: the caster before the arbiter, at every pixel, with lights where it is hard.
 mod shadow;
+// Sheets: layout, cells that are plain renders, overrides, errors that name the cell.
+mod sheet;
 // Every special float in every number of a scene: a finite picture or an error with a place.
 mod specials;
 // The stability mask against moved samples and moved vertices.
