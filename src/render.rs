@@ -121,11 +121,12 @@ pub fn render(scene: &Scene, options: &RenderOptions, progress: &dyn Progress) -
         if options.planes.has(PlaneGroup::Cover) { Counting::All } else { Counting::Nearest };
     let seen = match options.accuracy {
         Accuracy::Exact => see(scene, options.path, options.preset, window, counting, progress),
-        Accuracy::Watertight { subpixel_bits } => {
+        Accuracy::Watertight { subpixel_bits, depth_buffer } => {
             let started = Instant::now();
             progress.begin("rasterize", window.tiles(crate::raster::TILE_SIDE).len());
             let done = || progress.step();
-            let buffer = rasterize_watertight(scene, window, subpixel_bits, counting, &done);
+            let buffer =
+                rasterize_watertight(scene, window, subpixel_bits, depth_buffer, counting, &done);
             Seen { buffer, build: Duration::ZERO, visibility: started.elapsed() }
         }
     };

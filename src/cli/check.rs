@@ -66,7 +66,8 @@ pub(super) fn run(arguments: &CheckArguments, writing: &Writing) -> Result<u8, F
 }
 
 fn check_one<'a>(arguments: &CheckArguments, path: &'a Path) -> Result<Checked<'a>, Failure> {
-    let scene = Scene::load(path, &Overrides { resolution: arguments.size })?;
+    let scene =
+        Scene::load(path, &Overrides { resolution: arguments.size, skip_bad: arguments.skip_bad })?;
     if !arguments.quiet {
         output::print_warnings(&scene.warnings);
     }

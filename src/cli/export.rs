@@ -14,7 +14,10 @@ pub(super) fn run(arguments: &ExportArguments, writing: &Writing) -> Result<u8, 
     let folder = &arguments.output;
     check_folder(folder)?;
     let started = Instant::now();
-    let scene = Scene::load(&arguments.scene, &Overrides { resolution: arguments.size })?;
+    let scene = Scene::load(
+        &arguments.scene,
+        &Overrides { resolution: arguments.size, skip_bad: arguments.skip_bad },
+    )?;
     if !arguments.quiet {
         output::print_warnings(&scene.warnings);
     }

@@ -22,7 +22,10 @@ struct Explained {
 }
 
 pub(super) fn run(arguments: &PixelArguments) -> Result<u8, Failure> {
-    let scene = Scene::load(&arguments.scene, &Overrides { resolution: arguments.size })?;
+    let scene = Scene::load(
+        &arguments.scene,
+        &Overrides { resolution: arguments.size, skip_bad: arguments.skip_bad },
+    )?;
     output::print_warnings(&scene.warnings);
     let frame = scene.camera.resolution();
     let pixel = Pixel { x: arguments.x, y: arguments.y };

@@ -35,8 +35,13 @@ pub fn describe(scene: &Scene, accuracy: Accuracy) -> Value {
         "switches": scene.switches.table(),
         "effects": effects,
     });
-    if let Accuracy::Watertight { subpixel_bits } = accuracy {
+    if let Accuracy::Watertight { subpixel_bits, depth_buffer } = accuracy {
         document["subpixel_bits"] = json!(subpixel_bits.get());
+        if let Some(buffer) = depth_buffer {
+            document["depth_buffer"] = json!({
+                "bits": buffer.format().bits(), "near": buffer.near(), "far": buffer.far(),
+            });
+        }
     }
     document
 }

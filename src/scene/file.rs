@@ -58,6 +58,7 @@
 //! | `material.wrap` | none | wrapping of textures; not simulated by this version |
 //! | `mesh.file` | this or `shape` | an OBJ file |
 //! | `mesh.shape` | this or `file` | `{ NAME = { … } }`: a generated mesh, see [`shape`] |
+//! | `mesh.polygons` | `"ears"` | how polygons of `file` become triangles: `ears`, convex as a fan and concave by cutting ears; `fan`, all as a fan from the first corner |
 //! | `mesh.material` | the file's own, else the default one | name of a material |
 //! | `mesh.shading` | `"phong"` | only `"phong"` is simulated by this version |
 //! | `mesh.sides` | `"single"` | `"double"`: the shading normal turns towards the eye |

@@ -2,6 +2,7 @@
 //! simulate. Every fault is reported; the scene is made only of what has none.
 
 mod camera;
+mod left_out;
 mod library;
 mod light;
 mod material;
@@ -33,7 +34,7 @@ pub(super) fn scene(
     let camera = camera::resolve(file, overrides, faults);
     let mut materials = material::resolve(file, faults);
     let lights = file.lights.iter().filter_map(|light| light::resolve(light, faults)).collect();
-    let assembly = mesh::resolve(file, base, &mut materials, faults);
+    let assembly = mesh::resolve(file, base, overrides, &mut materials, faults);
     Some(Scene {
         camera: camera?,
         background,

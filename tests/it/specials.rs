@@ -193,7 +193,8 @@ fn every_number_of_a_gl_camera_and_of_shapes() {
 fn extreme_frames() {
     let folder = tempfile::tempdir().unwrap();
     for [width, height] in [[1, 1], [1, 65_536], [65_536, 1], [1, 2], [2, 1]] {
-        let overrides = Overrides { resolution: Resolution::new(width, height) };
+        let overrides =
+            Overrides { resolution: Resolution::new(width, height), ..Overrides::default() };
         for form in [&FORMS[0], &FORMS[3]] {
             let texts = [form.obj, form.mtl].map(|text| substitute(text, None));
             std::fs::write(folder.path().join("mesh.obj"), &texts[0]).unwrap();

@@ -213,7 +213,7 @@ fn tiles_crops_and_senseless_widths() {
 #[test]
 fn most_of_a_generic_picture_is_stable() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/default.toml");
-    let overrides = Overrides { resolution: Resolution::new(320, 180) };
+    let overrides = Overrides { resolution: Resolution::new(320, 180), ..Overrides::default() };
     let scene = Scene::load(&path, &overrides).unwrap();
     let buffer = seen(&scene);
     let stable = mask(&scene, &buffer, STANDARD_HALF_WIDTH);

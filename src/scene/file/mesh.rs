@@ -55,6 +55,8 @@ impl MaterialFile {
 pub struct MeshFile {
     /// Where its triangles come from.
     pub source: SourceFile,
+    /// How the file's polygons become triangles.
+    pub polygons: Option<Spanned<String>>,
     /// Name of a `[[material]]`.
     pub material: Option<Spanned<String>>,
     /// How normals vary over a triangle.
@@ -87,6 +89,7 @@ impl MeshFile {
         let span = keys.header.clone();
         let file = keys.read("file", text, faults);
         let shape = keys.ask("shape");
+        let polygons = keys.read("polygons", text, faults);
         let material = keys.read("material", text, faults);
         let shading = keys.read("shading", text, faults);
         let sides = keys.read("sides", text, faults);
@@ -103,6 +106,9 @@ impl MeshFile {
             }
             _ => {}
         }
+        if let (None, Some(key)) = (place_of("file"), place_of("polygons")) {
+            keys.fault(&key.span(), "`polygons` belongs to a mesh with `file`", faults);
+        }
         let shape = shape.and_then(|value| GeneratedFile::read(value, faults));
         if !keys.close(faults) {
             return None;
@@ -112,6 +118,17 @@ impl MeshFile {
             (None, Some(shape)) => SourceFile::Shape(shape),
             (None, None) => return None,
         };
-        Some(Self { source, material, shading, sides, translate, rotate_deg, scale, matrix, span })
+        Some(Self {
+            source,
+            polygons,
+            material,
+            shading,
+            sides,
+            translate,
+            rotate_deg,
+            scale,
+            matrix,
+            span,
+        })
     }
 }

@@ -4,7 +4,7 @@ use crate::mesh::{NO_ATTRIBUTE, TriangleId};
 use crate::scene::error::{Place, SceneError};
 use crate::scene::obj::indexing::Indexed;
 use crate::scene::obj::polygon::{
-    MAX_CONCAVE_CORNERS, Outcome, scale_corners, triangulate, vector_area,
+    MAX_CONCAVE_CORNERS, Outcome, Polygons, append_fan, scale_corners, triangulate, vector_area,
 };
 use crate::scene::obj::report::Report;
 use crate::scene::obj::scanned::{Face, Scan};
@@ -17,6 +17,7 @@ use std::path::Path;
 pub(super) fn assemble(
     scan: &Scan,
     indexed: Indexed,
+    polygons: Polygons,
     file: &Path,
     report: &mut Report,
 ) -> MeshPart {
@@ -48,7 +49,7 @@ pub(super) fn assemble(
         normals: &corner_normals,
         uvs: &indexed.corner_uvs,
     };
-    append_triangles(scan, corners, &mut part, file, report);
+    append_triangles(scan, corners, polygons, &mut part, file, report);
     part
 }
 
@@ -90,6 +91,7 @@ struct Corners<'a> {
 fn append_triangles(
     scan: &Scan,
     corners: Corners<'_>,
+    polygons: Polygons,
     part: &mut MeshPart,
     file: &Path,
     report: &mut Report,
@@ -105,6 +107,8 @@ fn append_triangles(
         scale_corners(positions.map(|&p| part.positions[p as usize]), &mut scaled);
         if range.len() == 3 {
             triangles.push([0, 1, 2]);
+        } else if polygons == Polygons::Fan {
+            append_fan(range.len(), &mut triangles);
         } else {
             match triangulate(&scaled, &mut triangles) {
                 Outcome::Covered => {}

@@ -1,5 +1,6 @@
 //! The meshes: read or made, given their materials, transformed and assembled.
 
+use super::left_out::without_bad_faces;
 use super::library::Library;
 use super::material::Materials;
 use crate::mesh::NO_ATTRIBUTE;
@@ -7,6 +8,8 @@ use crate::scene::assemble::{Assembly, AssemblyFault, Piece};
 use crate::scene::error::{Place, SceneError};
 use crate::scene::file::text::Faults;
 use crate::scene::file::{GeneratedFile, MeshFile, SceneFile, SourceFile, suggestion};
+use crate::scene::load::Overrides;
+use crate::scene::obj::{ObjOptions, Polygons};
 use crate::scene::part::MeshPart;
 use crate::scene::shapes::{self, Shape};
 use crate::scene::transform::Transform;
@@ -17,6 +20,7 @@ use toml::Spanned;
 pub(super) fn resolve(
     file: &SceneFile,
     base: &Path,
+    overrides: &Overrides,
     materials: &mut Materials,
     faults: &mut Faults<'_>,
 ) -> Assembly {
@@ -27,6 +31,7 @@ pub(super) fn resolve(
         let transform = transform(mesh, faults);
         let sides = sides(mesh, faults);
         check_shading(mesh, faults);
+        let polygons = polygons(mesh, faults);
         let named = named_material(mesh, file, materials, faults);
         let made;
         let (part, name, source, own) = match &mesh.source {
@@ -38,11 +43,19 @@ pub(super) fn resolve(
             }
             SourceFile::File(written) => {
                 let path = base.join(written.get_ref());
-                let Some(read) = library.read(&path, written, faults) else { continue };
+                let options = ObjOptions { polygons, skip_bad: overrides.skip_bad };
+                let Some(read) = library.read(&path, options, written, faults) else { continue };
                 let own =
                     if named.is_none() { read.numbers(materials).to_vec() } else { Vec::new() };
-                let lines = read.file.part.lines.clone();
-                (&read.file.part, written.get_ref().clone(), Source::File { path, lines }, own)
+                let mut part = &read.file.part;
+                if overrides.skip_bad {
+                    if let Some(less) = without_bad_faces(part, &transform, &path, faults) {
+                        made = less;
+                        part = &made;
+                    }
+                }
+                let lines = part.lines.clone();
+                (part, written.get_ref().clone(), Source::File { path, lines }, own)
             }
         };
         let piece = Piece {
@@ -120,6 +133,21 @@ fn sides(mesh: &MeshFile, faults: &mut Faults<'_>) -> Sides {
             Sides::Single
         }
     }
+}
+
+fn polygons(mesh: &MeshFile, faults: &mut Faults<'_>) -> Polygons {
+    let Some(written) = &mesh.polygons else { return Polygons::default() };
+    let word = written.get_ref().as_str();
+    let known = Polygons::ALL.iter().find(|(name, _)| *name == word);
+    known.map_or_else(
+        || {
+            let names = Polygons::ALL.map(|(name, _)| name);
+            let message = format!("`polygons` must be \"ears\" or \"fan\", not \"{word}\"");
+            faults.at_with_help(&written.span(), message, suggestion(word, &names));
+            Polygons::default()
+        },
+        |&(_, polygons)| polygons,
+    )
 }
 
 fn check_shading(mesh: &MeshFile, faults: &mut Faults<'_>) {

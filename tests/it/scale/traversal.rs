@@ -12,10 +12,11 @@ use std::path::Path;
 use std::time::Instant;
 use truecast::accel::{Accelerator, BuildPreset};
 use truecast::cast::cast;
+use truecast::mesh::TriangleId;
 use truecast::pixel::Resolution;
 use truecast::raster::rasterize;
 use truecast::scene::camera::PinholeCamera;
-use truecast::scene::{Overrides, Scene};
+use truecast::scene::{Overrides, Scene, SceneErrors};
 use truecast::visibility::Counting;
 
 /// Quads seen by one ray from (0, ¼, 0), with enough bystanders for a tree.
@@ -265,26 +266,81 @@ fn h59_concentric() {
     assert_eq!(ids(&buffer)[9 * 17 + 9], Some(512));
 }
 
-/// A vertex that is no number is a fault of its line; there is no option to skip it.
+/// A scene over the text of a mesh file `bad.obj`, with its folder.
+fn scene_of_obj(obj: &str, skip_bad: bool) -> Result<Scene, SceneErrors> {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("bad.obj"), obj).unwrap();
+    let text = "version = 1\n[image]\nwidth = 17\nheight = 17\n[camera]\neye = [0, 0, 5]\n\
+        target = [0.2, 0.3, 0]\nup = [0, 1, 0]\nfov_y_deg = 45\n[[mesh]]\nfile = \"bad.obj\"\n\
+        scale = 2\n";
+    let overrides = Overrides { skip_bad, ..Overrides::default() };
+    Scene::from_toml(text, Path::new("t.toml"), folder.path(), &overrides)
+}
+
+/// Coordinates that no triangle may have; the last three are numbers, but out of range.
+const BAD_COORDINATES: [&str; 10] =
+    ["nan", "NaN", "inf", "-inf", "infinity", "1e999", "-1e400", "1e39", "-1e300", "8e37"];
+
+/// A vertex that is no number or out of range is a fault of its line, or of the face that uses it.
 #[test]
 fn h60_nan_vertex() {
-    let scene = |corner: &str| {
-        let folder = tempfile::tempdir().unwrap();
-        let obj = format!("v 0 0 0\nv 1 0 0\nv {corner}\nv 0 1 0\nf 1 2 4\nf 1 2 3\n");
-        std::fs::write(folder.path().join("bad.obj"), obj).unwrap();
-        let text = "version = 1\n[image]\nwidth = 2\nheight = 2\n[camera]\neye = [0, 0, 5]\n\
-            target = [0, 0, 0]\nup = [0, 1, 0]\nfov_y_deg = 45\n[[mesh]]\nfile = \"bad.obj\"\n";
-        Scene::from_toml(text, Path::new("t.toml"), folder.path(), &Overrides::default())
-    };
-    assert!(scene("0 1 0").is_ok());
-    for word in ["nan", "NaN", "inf", "-inf", "infinity", "1e999", "-1e400"] {
+    let obj = |corner: &str| format!("v 0 0 0\nv 1 0 0\nv {corner}\nv 0 1 0\nf 1 2 4\nf 1 2 3\n");
+    assert!(scene_of_obj(&obj("0 1 0"), false).is_ok());
+    for word in BAD_COORDINATES {
         for corner in [format!("{word} 1 0"), format!("0 {word} 0"), format!("0 1 {word}")] {
-            let errors = scene(&corner).expect_err(&corner).0;
+            let errors = scene_of_obj(&obj(&corner), false).expect_err(&corner).0;
             let place = &errors[0].place;
             assert!(place.file.ends_with("bad.obj"), "{corner}: {place}");
-            assert_eq!(place.line, 3, "{corner}: {}", errors[0]);
+            let line = if word.parse::<f64>().unwrap().is_finite() { 6 } else { 3 };
+            assert_eq!(place.line, line, "{corner}: {}", errors[0]);
         }
     }
+}
+
+/// With bad triangles skipped the others keep their picture, whatever the bad ones are, wherever
+/// they stand, and whether they share corners with the good ones.
+#[test]
+fn h60_skipped_vertices_leave_the_others_as_they_are() {
+    // Vertices 1 to 4 are bad or not; the faces 11, 13, 15 and 16 use them, the others do not.
+    let obj = |bad: [&str; 3], with_bad: bool| {
+        let [a, b, c] = bad;
+        let face = |text: &'static str| if with_bad { text } else { "" };
+        format!(
+            "v {a} 0.5 0\nv 0.5 {b} 0\nv 0.25 0.25 {c}\nv 9 9 9\nv -1 -1 0\nv 1 -1 0\nv 1 1 0.5\n\
+             v -1 1 0\nv 0 0 1\nf 5 6 9\n{}f 6 7 9\n{}f 7 8 9\n{}{}f 8 5 9\nf 5 6 7 8\n",
+            face("f 1 5 6\n"),
+            face("f 5 2 6 7\n"),
+            face("f 3 3 3\n"),
+            face("f 6 7 8 9 3\n"),
+        )
+    };
+    let good = scene_of_obj(&obj(["1"; 3], false), false).unwrap();
+    let reference = agreed(&good);
+    assert!(reference.covered_pixels() > 100, "{}", reference.covered_pixels());
+    for word in BAD_COORDINATES {
+        let scene = scene_of_obj(&obj([word; 3], true), true).expect(word);
+        let buffer = agreed(&scene);
+        assert_same(&reference, &buffer, word);
+        assert_eq!(reference.cover, buffer.cover, "{word}");
+        assert_eq!(scene.mesh.len(), good.mesh.len(), "{word}");
+        assert!(scene.mesh.positions.iter().flatten().all(|c| c.abs() < 100.0), "{word}");
+        // The warning counts the faces and names the first; what remains still knows its lines.
+        let [warning] = scene.warnings.as_slice() else { panic!("{word}: {:?}", scene.warnings) };
+        let sentence = "is left out (4 times; this is the first)";
+        assert!(
+            warning.contains("bad.obj:11: a face ") && warning.ends_with(sentence),
+            "{warning}"
+        );
+        let line = |id: u32| scene.describe_source(TriangleId::new(id));
+        assert!(line(0).ends_with("bad.obj:10") && line(1).ends_with("bad.obj:12"), "{}", line(1));
+    }
+    // A position that no face uses is no fault; a mesh of nothing but bad faces is one.
+    assert!(scene_of_obj("v nan 0 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 2 3 4\n", true).is_ok());
+    let errors = scene_of_obj("v nan 0 0\nv 0 0 0\nv 1 0 0\nf 1 2 3\n", true).unwrap_err();
+    assert!(errors.to_string().contains("no faces with finite corners"), "{errors}");
+    // What is no number at all is a fault as before, and so is a normal that is not finite.
+    assert!(scene_of_obj("v x 0 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 2 3 4\n", true).is_err());
+    assert!(scene_of_obj("vn nan 0 0\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", true).is_err());
 }
 
 /// Every magnitude up to the largest position, 2^126, is built and seen; beyond it is a fault.

@@ -87,7 +87,7 @@ fn cameras_that_are_none() {
 
 #[test]
 fn a_size_from_outside_replaces_a_look_at_cameras_size_only() {
-    let overrides = Overrides { resolution: Resolution::new(8, 6) };
+    let overrides = Overrides { resolution: Resolution::new(8, 6), ..Overrides::default() };
     let with = |text: &str| Scene::from_toml(text, Path::new(NAME), Path::new(""), &overrides);
     assert_eq!(Some(with(HEAD).unwrap().camera.resolution()), overrides.resolution);
     let head = "version = 1\n[image]\nwidth = 4\nheight = 3\n";

@@ -60,7 +60,7 @@ fn scenes() -> Vec<(String, Scene)> {
         scenes.push((format!("chaos {seed}"), Scene::from_triangles(camera.clone(), &chaos)));
     }
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/default.toml");
-    let overrides = Overrides { resolution: Resolution::new(240, 135) };
+    let overrides = Overrides { resolution: Resolution::new(240, 135), ..Overrides::default() };
     scenes.push(("default scene".to_owned(), Scene::load(&path, &overrides).unwrap()));
     scenes
 }
