@@ -5,7 +5,7 @@
 
 mod kinds;
 
-use crate::scale::{Breadth, NARROW, agreed_within};
+use crate::support::configurations::{Breadth, NARROW, agreed_within};
 use crate::support::rays::Random;
 use kinds::{Kind, triangles_of};
 use truecast::pixel::Resolution;

@@ -1,7 +1,7 @@
 //! H20 to H25 and H29: copies, common planes, and planes that are as close as numbers can be.
 
-use super::configurations::agree_everywhere;
 use super::{agree_with_golden, cover, ids};
+use crate::support::configurations::agree_everywhere;
 use crate::support::golden;
 use crate::support::scenes::{Sequence, Triangle, rectangle, standard_scene, triangles_of};
 use truecast::raster::{DepthBuffer, DepthFormat, SubpixelBits, rasterize_watertight};
@@ -122,7 +122,7 @@ const SHEETS: [(f32, f32, &[DepthFormat], &[DepthFormat]); 5] = {
         (500.0, 500.1, &[D16], &[D24, D32]),
         // Further apart than a step, far closer than D16's of 38.1.
         (500.0, 500.2, &[D16], &[D24, D32]),
-        (500.0, 510.0, &[D16], &[D24, D32]),
+        (500.0, 501.0, &[D16], &[D24, D32]),
     ]
 };
 

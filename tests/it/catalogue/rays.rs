@@ -1,9 +1,9 @@
 //! H14 to H16: closed meshes, and rays aimed at their vertices and edges. Random rays test
 //! nothing: no kernel misses them.
 
-use super::configurations::{agree_everywhere, agree_once};
 use super::{assert_covered_once, one_signed_count};
 use crate::support::closed::{aimed_shell, contains, integer_chaos, shell_camera, sphere};
+use crate::support::configurations::{agree_everywhere, agree_once};
 use crate::support::scenes::{Sequence, Triangle, single_ray, standard_camera};
 use truecast::accel::{Accelerator, BuildPreset};
 use truecast::cast::cast;

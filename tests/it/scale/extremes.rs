@@ -1,9 +1,7 @@
 //! H70–H7A: scales, translations and the ends of the range of numbers.
 
-use super::{
-    Breadth, FULL, NARROW, agreed, agreed_within, assert_covered_once, cover, ids,
-    times_power_of_two, triangles_of,
-};
+use super::{assert_covered_once, cover, ids, times_power_of_two, triangles_of};
+use crate::support::configurations::{Breadth, FULL, NARROW, agreed, agreed_within};
 use crate::support::golden;
 use crate::support::rays::Random;
 use crate::support::scenes::{
