@@ -5,3 +5,4 @@ pub(crate) mod configurations;
 pub(crate) mod golden;
 pub(crate) mod rays;
 pub(crate) mod scenes;
+pub(crate) mod sizes;

@@ -7,6 +7,7 @@ use crate::support::rays::Random;
 use crate::support::scenes::{
     Triangle, rectangle, scaled, single_ray, standard_camera, standard_scene,
 };
+use crate::support::sizes;
 use dashu_ratio::RBig;
 use truecast::accel::BuildPreset;
 use truecast::exact::Arbiter;
@@ -252,12 +253,8 @@ fn h7a_mixed() {
     };
     let triangles: Vec<Triangle> =
         (0..10_000).map(|_| [0; 3].map(|_| [0; 3].map(|_| coordinate()))).collect();
-    let breadth = Breadth {
-        presets: &[BuildPreset::Medium],
-        linear: false,
-        tile_sides: &[32],
-        audited_pixels: 6,
-    };
+    let configurations = if sizes::is_full() { FULL } else { NARROW };
+    let breadth = Breadth { audited_pixels: sizes::H7A.running(), ..configurations };
     let buffer = agreed_within(&standard_scene(&triangles), &breadth, "mixed");
     assert!(buffer.covered_pixels() > 200, "{}", buffer.covered_pixels());
     assert!((0..289).any(|index| cover(&buffer, index).crossed > 100));

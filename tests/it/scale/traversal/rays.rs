@@ -6,6 +6,7 @@ use crate::support::configurations::{Breadth, NARROW, agreed, agreed_within, ass
 use crate::support::golden;
 use crate::support::rays::{Random, on_lattice};
 use crate::support::scenes::{Triangle, rectangle, scaled_camera, single_ray, standard_camera};
+use crate::support::sizes;
 use truecast::accel::{Accelerator, BuildPreset};
 use truecast::cast::cast;
 use truecast::pixel::Resolution;
@@ -179,7 +180,7 @@ fn h57_aimed_sphere() {
         .map(|preset| Accelerator::build(&scene.mesh, preset));
     let linear = Accelerator::linear(&scene.mesh);
     let mut random = Random(57);
-    for number in 0..30_000 {
+    for number in 0..sizes::H57.running() {
         let target = triangles[(number * 7919) % triangles.len()][number % 3].map(f64::from);
         let eye: [f64; 3] = std::array::from_fn(|_| random.step() - 0.5);
         let direction = std::array::from_fn(|k| f64::from((target[k] - eye[k]) as f32));

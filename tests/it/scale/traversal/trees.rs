@@ -4,6 +4,7 @@ use crate::scale::{cover, ids};
 use crate::support::configurations::{Breadth, FULL, NARROW, agreed, agreed_within};
 use crate::support::rays::Random;
 use crate::support::scenes::{Triangle, rectangle, standard_scene};
+use crate::support::sizes;
 use std::time::Instant;
 use truecast::accel::{Accelerator, BuildPreset};
 use truecast::cast::cast;
@@ -11,34 +12,40 @@ use truecast::pixel::Resolution;
 use truecast::raster::rasterize;
 use truecast::scene::Scene;
 use truecast::scene::camera::PinholeCamera;
-use truecast::visibility::Counting;
+use truecast::visibility::{Counting, VisibilityBuffer};
 
 /// 10⁴ and 10⁶ copies of one triangle: one answer, one test per ray, no quadratic build.
 #[test]
 fn h58_identical_triangles() {
     let triangle = [[-4.0, -4.0, 8.0], [4.0, -4.0, 8.0], [-4.0, 4.0, 8.0]];
+    let presets = [&[BuildPreset::Medium][..], &BuildPreset::ALL][usize::from(sizes::is_full())];
+    assert_eq!(presets.len(), sizes::H58.running());
     for count in [10_000, 1_000_000] {
         let scene = standard_scene(&vec![triangle; count]);
         let window = scene.camera.resolution().window();
-        let started = Instant::now();
-        let accelerator = Accelerator::build(&scene.mesh, BuildPreset::Medium);
-        // About 0.3 s on an idle machine; clustering them one by one would take hours.
-        assert!(started.elapsed().as_secs_f64() < 10.0, "{:?}", started.elapsed());
-        assert!(accelerator.depth() <= 64, "{}", accelerator.depth());
-        let answers = [
-            cast(&scene, &accelerator, window, Counting::All, &|| ()),
-            rasterize(&scene, window, Counting::All, &|| ()),
-        ];
-        for buffer in &answers {
-            assert_eq!(buffer.covered_pixels(), 36);
-            for (index, visible) in buffer.visible.iter().enumerate() {
-                let Some(visible) = visible else { continue };
-                assert_eq!((visible.triangle.get(), visible.tie), (0, true));
-                assert_eq!(cover(buffer, index).crossed as usize, count);
-                assert_eq!(cover(buffer, index).signed.unsigned_abs() as usize, count);
-            }
+        let raster = rasterize(&scene, window, Counting::All, &|| ());
+        assert_copies(&raster, count);
+        for &preset in presets {
+            let started = Instant::now();
+            let accelerator = Accelerator::build(&scene.mesh, preset);
+            // About 0.3 s on an idle machine; clustering them one by one would take hours.
+            assert!(started.elapsed().as_secs_f64() < 10.0, "{:?}", started.elapsed());
+            assert!(accelerator.depth() <= 64, "{}", accelerator.depth());
+            let answer = cast(&scene, &accelerator, window, Counting::All, &|| ());
+            assert_copies(&answer, count);
+            assert_eq!(answer.cover, raster.cover);
         }
-        assert_eq!(answers[0].cover, answers[1].cover);
+    }
+}
+
+/// What `count` copies of the triangle of 36 pixels show.
+fn assert_copies(buffer: &VisibilityBuffer, count: usize) {
+    assert_eq!(buffer.covered_pixels(), 36);
+    for (index, visible) in buffer.visible.iter().enumerate() {
+        let Some(visible) = visible else { continue };
+        assert_eq!((visible.triangle.get(), visible.tie), (0, true));
+        assert_eq!(cover(buffer, index).crossed as usize, count);
+        assert_eq!(cover(buffer, index).signed.unsigned_abs() as usize, count);
     }
 }
 
@@ -89,8 +96,8 @@ fn h63_equal_t() {
         random.shuffle(&mut order);
         let shuffled: Vec<Triangle> = order.iter().map(|&k| triangles[k]).collect();
         let breadth = Breadth {
-            tile_sides: &[32],
-            audited_pixels: if shuffle == 0 { 289 } else { 2 },
+            tile_sides: if sizes::is_full() { FULL.tile_sides } else { &[32] },
+            audited_pixels: if shuffle == 0 { 289 } else { sizes::H63.running() },
             ..FULL
         };
         let buffer = agreed_within(&standard_scene(&shuffled), &breadth, "shuffled");
@@ -145,7 +152,7 @@ fn h64_all_hits() {
     let breadth = Breadth {
         presets: &[BuildPreset::Medium, BuildPreset::Fastest],
         tile_sides: &[32],
-        audited_pixels: 100,
+        audited_pixels: sizes::H64.running(),
         linear: true,
     };
     let scene = Scene::from_triangles(camera, &triangles);
