@@ -106,12 +106,13 @@ mod tests {
         }
     }
 
-    /// At z = 500: ×16 777 215 and ×65 535 of 0.9998999899989999, by hand.
+    /// At z = 500: ×16 777 215 and ×65 535 of 0.9998999899989999, by hand; as f32 it is
+    /// 16 775 538 steps of 2^-24.
     #[test]
     fn a_depth_of_500() {
         assert_eq!(buffer(24).stored(500.0), 16_775_537.0);
         assert_eq!(buffer(16).stored(500.0), 65_528.0);
-        assert_eq!(buffer(32).stored(500.0), f64::from(0.999_899_99_f32));
+        assert_eq!(buffer(32).stored(500.0), 16_775_538.0 / f64::from(1 << 24));
     }
 
     #[test]

@@ -48,11 +48,11 @@ pub(super) fn resolve(
                 let own =
                     if named.is_none() { read.numbers(materials).to_vec() } else { Vec::new() };
                 let mut part = &read.file.part;
-                if overrides.skip_bad {
-                    if let Some(less) = without_bad_faces(part, &transform, &path, faults) {
-                        made = less;
-                        part = &made;
-                    }
+                if overrides.skip_bad
+                    && let Some(less) = without_bad_faces(part, &transform, &path, faults)
+                {
+                    made = less;
+                    part = &made;
                 }
                 let lines = part.lines.clone();
                 (part, written.get_ref().clone(), Source::File { path, lines }, own)

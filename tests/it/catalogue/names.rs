@@ -59,6 +59,7 @@ fn every_case_is_here() {
 
 /// The table of all cases, with the size at which they run: read it with `--nocapture`.
 #[test]
+#[expect(clippy::print_stdout, reason = "the table is what this test is run for")]
 fn sizes_of_all_cases() {
     let all: Vec<&str> = SECTIONS.iter().flat_map(|section| section.cases.split(' ')).collect();
     let listed = REDUCED.map(|size| size.case);
