@@ -145,7 +145,7 @@ pub fn judge(
         blame::judge_differences(scene, &arbiter, answers, comparison.differences, progress);
     // Audit agreeing pixels: an error common to both paths shows only here.
     let disputed: Vec<Pixel> = differences.iter().map(|judged| judged.difference.pixel).collect();
-    let sample = audit::sample(cast, &disputed, options.audited_pixels);
+    let sample = audit::sample(scene, cast, &disputed, options.audited_pixels);
     differences.extend(audit::audit(scene, &arbiter, answers, &sample, progress));
     let seen = |index: usize| {
         cast.buffer.visible[index].is_some() || raster.buffer.visible[index].is_some()

@@ -35,7 +35,7 @@ use image_plane::ImagePlane;
 
 pub use layers::rasterize_layers;
 pub use stability::{STANDARD_HALF_WIDTH, stability, stability_in_tiles};
-pub use watertight::{DEPTH_ERROR, SubpixelBits, rasterize_watertight};
+pub use watertight::{DEPTH_ERROR, DepthBuffer, DepthFormat, SubpixelBits, rasterize_watertight};
 
 /// Side of a tile, in pixels: its z-buffer (1024 fragments of 32 bytes) fits a first-level cache.
 pub const TILE_SIDE: u32 = 32;

@@ -110,7 +110,9 @@ pub fn render(scene: &Scene, options: &RenderOptions, progress: &dyn Progress) -
     let started = Instant::now();
     let answerer = match options.accuracy {
         Accuracy::Exact => Answerer::new(scene, options.path, options.preset, progress),
-        Accuracy::Watertight { subpixel_bits } => Answerer::Watertight(subpixel_bits),
+        Accuracy::Watertight { subpixel_bits, depth_buffer } => {
+            Answerer::Watertight(subpixel_bits, depth_buffer)
+        }
     };
     let build = started.elapsed();
     let started = Instant::now();
@@ -134,7 +136,7 @@ pub fn render(scene: &Scene, options: &RenderOptions, progress: &dyn Progress) -
     let visible = options.listing.map(|listing| {
         // What lies between the pixel centres is looked for exactly, however the frame was made.
         let exact = match answerer {
-            Answerer::Watertight(_) => Answerer::Raster,
+            Answerer::Watertight(..) => Answerer::Raster,
             exact => exact,
         };
         list_visible(scene, &buffer, listing, &exact, progress)

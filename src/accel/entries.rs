@@ -3,7 +3,9 @@
 //! Two degenerate inputs make a bottom-up clustering builder quadratic and its tree a linked list,
 //! because every union cost ties: boxes with one centre, and boxes nested in each other. Runs of
 //! more than [`LONGEST_RUN`] such boxes become one item for the builder, and the tree inside an
-//! item is ours: halves by position in the run.
+//! item is ours: halves by position in the run. So do the boxes of one cell of the Morton curve: a
+//! scene whose sizes spread over many powers of two has nearly all of its boxes in one, where their
+//! unions cost nothing beside the scene's. There the curve begins anew, cell within cell.
 
 use super::bounds::Bounds;
 use crate::mesh::{TriangleId, TriangleMesh};
@@ -66,11 +68,21 @@ pub(super) fn collect(mesh: &TriangleMesh) -> Entries {
         })
     });
 
+    // Where a cell holds many boxes, order them along a curve of its own.
+    let cells: Vec<usize> = order.chunk_by(|a, b| a.0 == b.0).map(<[_]>::len).collect();
+    let mut rest = order.as_mut_slice();
+    for length in cells {
+        let (cell, others) = rest.split_at_mut(length);
+        refine(cell, &ids);
+        rest = others;
+    }
+
     // Fold duplicates: the first of a run has the lowest id.
     let mut triangles: Vec<LeafTriangle> = Vec::with_capacity(order.len());
     let mut bounds: Vec<Bounds> = Vec::with_capacity(order.len());
     let mut copies: HashMap<TriangleId, Vec<TriangleId>> = HashMap::new();
-    for (_, index) in order {
+    let mut codes: Vec<u64> = Vec::with_capacity(order.len());
+    for (code, index) in order {
         let (id, triangle_bounds) = ids[index as usize];
         let vertices = mesh.triangle(id);
         if let Some(last) = triangles.last_mut()
@@ -86,8 +98,9 @@ pub(super) fn collect(mesh: &TriangleMesh) -> Entries {
         }
         triangles.push(LeafTriangle { vertices, id, copies: 1 });
         bounds.push(triangle_bounds);
+        codes.push(code);
     }
-    let items = group(&bounds);
+    let items = group(&bounds, &codes);
     Entries { triangles, bounds, items, copies }
 }
 
@@ -96,13 +109,56 @@ pub(super) fn unordered(mesh: &TriangleMesh) -> Vec<LeafTriangle> {
     mesh.ids().map(|id| LeafTriangle { vertices: mesh.triangle(id), id, copies: 1 }).collect()
 }
 
-/// Cuts the order into items: long concentric or nested runs, and single boxes.
-fn group(bounds: &[Bounds]) -> Vec<Range<u32>> {
+/// Orders the boxes of one cell, given by code and position in `ids` and sorted by size, along the
+/// Morton curve of their own centres, and so on inside its cells. The codes stay those of the
+/// scene. A cell of mostly nested boxes keeps its order by size, which parts them better.
+fn refine(cell: &mut [(u64, u32)], ids: &[(TriangleId, Bounds)]) {
+    if cell.len() <= LONGEST_RUN {
+        return;
+    }
+    let bounds_of = |entry: &(u64, u32)| ids[entry.1 as usize].1;
+    let nested = cell.windows(2).filter(|pair| {
+        let [a, b] = [bounds_of(&pair[0]), bounds_of(&pair[1])];
+        degenerate_pair(a, b)
+    });
+    if 2 * nested.count() >= cell.len() {
+        return;
+    }
+    let (mut lo, mut hi) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+    for entry in &*cell {
+        let center = bounds_of(entry).center2();
+        lo = std::array::from_fn(|k| lo[k].min(center[k]));
+        hi = std::array::from_fn(|k| hi[k].max(center[k]));
+    }
+    if lo == hi {
+        return;
+    }
+    let sides = std::array::from_fn(|k| hi[k] - lo[k]);
+    let mut coded: Vec<(u64, (u64, u32))> =
+        cell.iter().map(|entry| (code_of(bounds_of(entry).center2(), lo, sides), *entry)).collect();
+    // Stable, so that inside a finer cell the order by size remains. Not all codes are equal: the
+    // first and the last cell along some axis are taken.
+    coded.sort_by_key(|(code, _)| *code);
+    for (to, (_, entry)) in cell.iter_mut().zip(&coded) {
+        *to = *entry;
+    }
+    let mut rest = cell;
+    for finer in coded.chunk_by(|a, b| a.0 == b.0) {
+        let (first, others) = rest.split_at_mut(finer.len());
+        refine(first, ids);
+        rest = others;
+    }
+}
+
+/// Cuts the order into items: long concentric or nested runs, crowded cells, and single boxes.
+fn group(bounds: &[Bounds], codes: &[u64]) -> Vec<Range<u32>> {
     let mut items = Vec::with_capacity(bounds.len());
     let mut start = 0;
     while start < bounds.len() {
         let mut end = start + 1;
-        while end < bounds.len() && degenerate_pair(bounds[end - 1], bounds[end]) {
+        while end < bounds.len()
+            && (codes[end - 1] == codes[end] || degenerate_pair(bounds[end - 1], bounds[end]))
+        {
             end += 1;
         }
         if end - start > LONGEST_RUN {
@@ -146,11 +202,15 @@ fn canonical_bits(vertices: &[[f32; 3]; 3]) -> [[u32; 3]; 3] {
 
 /// Position of the box's centre along the Morton curve of the scene, 21 bits per axis.
 fn morton_code(scene: Bounds, bounds: Bounds) -> u64 {
-    let (center, sides) = (bounds.center2(), scene.sides());
+    let lo = scene.lo.map(|c| 2.0 * f64::from(c));
+    code_of(bounds.center2(), lo, scene.sides().map(|side| 2.0 * side))
+}
+
+/// Position of a point along the Morton curve of a box with lowest corner `lo`.
+fn code_of(point: [f64; 3], lo: [f64; 3], sides: [f64; 3]) -> u64 {
     (0..3).fold(0, |code, k| {
-        let offset = center[k] * 0.5 - f64::from(scene.lo[k]);
-        // A flat scene divides 0 by 0; the cast makes 0 of NaN.
-        let cell = (offset / sides[k] * f64::from(1 << 21)) as u64;
+        // A flat box divides 0 by 0; the cast makes 0 of NaN.
+        let cell = ((point[k] - lo[k]) / sides[k] * f64::from(1 << 21)) as u64;
         code | spread(cell.min((1 << 21) - 1)) << k
     })
 }

@@ -124,6 +124,30 @@ fn regular_grids_are_not_quadratic() {
     }
 }
 
+/// Sizes over 200 powers of two, all in one cell of the scene's curve: 100 000 build in a blink, and
+/// a tree that parts them by place, not only by size, makes a ray meet few.
+#[test]
+fn mixed_scales_are_neither_quadratic_nor_unordered() {
+    let mut number = 0;
+    let mut random = || {
+        number += 1;
+        (number as f64 * 0.618_033_988_749_894_9).fract()
+    };
+    let triangles: Vec<_> = (0..100_000)
+        .map(|_| {
+            let size = 2.0_f64.powi((random() * 201.0) as i32 - 100);
+            let at = [random() * 40.0 - 20.0, random() * 24.0 - 12.0, 8.0];
+            [0; 3].map(|_| at.map(|c| ((c + 0.1 * random() - 0.05) * size) as f32))
+        })
+        .collect();
+    let mesh = mesh_of(&triangles);
+    let started = Instant::now();
+    let accelerator = Accelerator::build(&mesh, BuildPreset::Medium);
+    // About 0.1 s on an idle machine; minutes where their clustering is quadratic.
+    assert!(started.elapsed().as_secs_f64() < 20.0, "{:?}", started.elapsed());
+    assert!(accelerator.depth() <= 64, "depth {}", accelerator.depth());
+}
+
 #[test]
 fn h61_every_magnitude_builds() {
     let largest = power_of_two(126);

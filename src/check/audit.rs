@@ -1,7 +1,10 @@
 //! The audit: the arbiter looks at a sample of the pixels on which both paths agree.
 //!
-//! Half of the sample lies next to a boundary between two ids, where errors live; the other half
-//! anywhere. Where surfaces are see-through, a third lies on them. The seed is fixed, so a check is repeatable.
+//! Half of the sample are the pixels nearest to an edge, where errors live (`edge_distance`); the
+//! other half is drawn anywhere, every other time where something is seen through a surface, if
+//! anything is. The seed is fixed, so a check is repeatable.
+
+mod edge_distance;
 
 use super::blame::{Blame, Judged, visibility_error};
 use super::compare::{Answered, Difference, Kind, layers_differ};
@@ -11,37 +14,39 @@ use crate::pixel::Pixel;
 use crate::render::Progress;
 use crate::scene::Scene;
 use crate::visibility::VisibilityBuffer;
+use edge_distance::edge_distance;
 use rayon::prelude::*;
 use std::collections::HashSet;
 
 /// Seed of the sample; any number does.
 const SEED: u64 = 0x7275_6563_6173_7431;
 
-/// Chooses up to `count` pixels that are not disputed, half of them beside an id boundary, or a
-/// third there and a third where something is seen through a surface; all of them if the window
-/// has no more than `count`.
-pub(super) fn sample(answered: &Answered, disputed: &[Pixel], count: usize) -> Vec<Pixel> {
+/// Chooses up to `count` pixels that are not disputed, half of them nearest to an edge; all of
+/// them if the window has no more than `count`.
+pub(super) fn sample(
+    scene: &Scene,
+    answered: &Answered,
+    disputed: &[Pixel],
+    count: usize,
+) -> Vec<Pixel> {
     let buffer = &answered.buffer;
     let window = buffer.window;
     let mut taken: HashSet<Pixel> = disputed.iter().copied().collect();
     if count >= window.len() {
         return window.pixels().filter(|pixel| !taken.contains(pixel)).collect();
     }
-    let boundary: Vec<Pixel> =
-        window.pixels().filter(|&pixel| is_beside_boundary(buffer, pixel)).collect();
+    let mut chosen = nearest_to_edges(scene, buffer, &taken, count.div_ceil(2));
+    taken.extend(&chosen);
     let layered: Vec<Pixel> = window.pixels().filter(|&p| answered.is_layered(p)).collect();
-    let kinds = if layered.is_empty() { 2 } else { 3 };
     let mut random = SplitMix64(SEED);
-    let mut chosen = Vec::new();
     // Drawing may repeat a pixel; four draws per wanted pixel are enough wherever there are
     // plenty, and a small frame simply gives fewer.
     for draw in 0..4 * count {
         if chosen.len() >= count {
             break;
         }
-        let pixel = match draw % kinds {
-            0 if !boundary.is_empty() => boundary[random.below(boundary.len())],
-            2 => layered[random.below(layered.len())],
+        let pixel = match layered.len() {
+            many if many > 0 && draw % 2 == 0 => layered[random.below(many)],
             _ => window.pixel(random.below(window.len())),
         };
         if taken.insert(pixel) {
@@ -50,6 +55,29 @@ pub(super) fn sample(answered: &Answered, disputed: &[Pixel], count: usize) -> V
     }
     chosen.sort_unstable_by_key(|pixel| (pixel.y, pixel.x));
     chosen
+}
+
+/// The `count` pixels with the smallest distance to an edge, of equal ones the first; fewer where
+/// fewer show a triangle or lie beside one.
+fn nearest_to_edges(
+    scene: &Scene,
+    buffer: &VisibilityBuffer,
+    taken: &HashSet<Pixel>,
+    count: usize,
+) -> Vec<Pixel> {
+    let window = buffer.window;
+    let mut distances: Vec<(f64, usize)> = (0..window.len())
+        .into_par_iter()
+        .filter(|&index| !taken.contains(&window.pixel(index)))
+        .map(|index| (edge_distance(scene, buffer, window.pixel(index)), index))
+        .filter(|(distance, _)| distance.is_finite())
+        .collect();
+    let order = |a: &(f64, usize), b: &(f64, usize)| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1));
+    if count < distances.len() {
+        distances.select_nth_unstable_by(count, order);
+        distances.truncate(count);
+    }
+    distances.into_iter().map(|(_, index)| window.pixel(index)).collect()
 }
 
 /// Asks the arbiter about every pixel of the sample; both paths agree there, so an error is both's.
@@ -97,14 +125,6 @@ fn layers_error(
     layers_differ(found, &exact).then_some(Kind::Layers)
 }
 
-/// Whether the pixel to the right or below shows another triangle.
-fn is_beside_boundary(buffer: &VisibilityBuffer, pixel: Pixel) -> bool {
-    let id = |pixel: Pixel| buffer.at(pixel).map(|visible| visible.triangle);
-    let right = Pixel { x: pixel.x + 1, y: pixel.y };
-    let below = Pixel { x: pixel.x, y: pixel.y + 1 };
-    [right, below].into_iter().any(|other| buffer.window.contains(other) && id(other) != id(pixel))
-}
-
 /// Steele, Lea and Flood, "Fast splittable pseudorandom number generators" (2014).
 struct SplitMix64(u64);
 
@@ -122,3 +142,6 @@ impl SplitMix64 {
         ((u128::from(self.next()) * bound as u128) >> 64) as usize
     }
 }
+
+#[cfg(test)]
+mod tests;

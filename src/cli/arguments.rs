@@ -11,7 +11,7 @@ use std::path::PathBuf;
 use truecast::check::foreign::depth::DEPTH_TOLERANCE_RELATIVE;
 use truecast::check::foreign::ids::NOT_FINITE;
 use truecast::pixel::{MAX_SIDE, Resolution};
-use truecast::raster::SubpixelBits;
+use truecast::raster::{DepthBuffer, DepthFormat, SubpixelBits};
 use truecast::render::visible::SubsampleGrid;
 use truecast::scene::sampling::SampleGrid;
 
@@ -61,6 +61,18 @@ pub(super) struct RenderArguments {
     /// Bits of the watertight rasterizer's grid below the pixel, 0 to 12 [default: 8]
     #[arg(long, value_name = "N", value_parser = parse_subpixel_bits)]
     pub(super) subpixel_bits: Option<SubpixelBits>,
+    /// Store the watertight rasterizer's depths as a graphics processor does, in 16 or 24 bits or as
+    /// f32 (32); equal stored depths of different triangles show as ties in the plane verdict.tie
+    #[arg(long, value_name = "16|24|32", value_parser = parse_depth_bits)]
+    pub(super) depth_bits: Option<DepthFormat>,
+    /// Depth along the view axis that is stored as 0
+    #[arg(long, value_name = "Z", requires = "depth_bits", allow_negative_numbers = true,
+          default_value_t = DepthBuffer::STANDARD_NEAR)]
+    pub(super) near: f64,
+    /// Depth along the view axis that is stored as 1
+    #[arg(long, value_name = "Z", requires = "depth_bits", allow_negative_numbers = true,
+          default_value_t = DepthBuffer::STANDARD_FAR)]
+    pub(super) far: f64,
     /// Planes of the EXR: a comma-separated list of rgba, Z, t, P, N, Ns, uv, bary, id, facing,
     /// cover, verdict, stable; or all [default: all but cover and stable]
     #[arg(long, value_name = "LIST")]
@@ -88,6 +100,10 @@ pub(super) struct RenderArguments {
     /// pixel centre sees; even these are not all: a sliver may lie between sub-samples
     #[arg(long, value_name = "N", requires = "visible", value_parser = parse_subpixel)]
     pub(super) subpixel: Option<SubsampleGrid>,
+    /// Leave out faces of mesh files with a corner that is not finite or out of range, with a
+    /// warning, instead of stopping; ids count the triangles that remain
+    #[arg(long)]
+    pub(super) skip_bad: bool,
     /// Number of threads; 0 is one per core
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) threads: usize,
@@ -124,6 +140,10 @@ pub(super) struct CheckArguments {
     /// Compare the colour of NxN samples per pixel instead of the scene's, N from 1 to 16
     #[arg(long, value_name = "N", value_parser = parse_samples)]
     pub(super) samples: Option<SampleGrid>,
+    /// Leave out faces of mesh files with a corner that is not finite or out of range, with a
+    /// warning, instead of stopping; ids count the triangles that remain
+    #[arg(long)]
+    pub(super) skip_bad: bool,
     /// Number of threads; 0 is one per core
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) threads: usize,
@@ -188,6 +208,10 @@ pub(super) struct ExportArguments {
     /// Export at this size instead of the scene's
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(super) size: Option<Resolution>,
+    /// Leave out faces of mesh files with a corner that is not finite or out of range, with a
+    /// warning, instead of stopping; ids count the triangles that remain
+    #[arg(long)]
+    pub(super) skip_bad: bool,
     /// Number of threads; 0 is one per core
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) threads: usize,
@@ -210,6 +234,10 @@ pub(super) struct PixelArguments {
     /// Look at the frame of this size instead of the scene's
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub(super) size: Option<Resolution>,
+    /// Leave out faces of mesh files with a corner that is not finite or out of range, with a
+    /// warning, instead of stopping; ids count the triangles that remain
+    #[arg(long)]
+    pub(super) skip_bad: bool,
     /// Print one JSON document on stdout
     #[arg(long)]
     pub(super) json: bool,
@@ -219,6 +247,10 @@ pub(super) struct PixelArguments {
 pub(super) struct ExplainArguments {
     /// Scene file (TOML)
     pub(super) scene: PathBuf,
+    /// Leave out faces of mesh files with a corner that is not finite or out of range, with a
+    /// warning, instead of stopping; ids count the triangles that remain
+    #[arg(long)]
+    pub(super) skip_bad: bool,
     /// Print one JSON document on stdout
     #[arg(long)]
     pub(super) json: bool,
@@ -262,6 +294,11 @@ fn parse_subpixel(text: &str) -> Result<SubsampleGrid, String> {
 fn parse_subpixel_bits(text: &str) -> Result<SubpixelBits, String> {
     let bits = text.trim().parse().ok().and_then(SubpixelBits::new);
     bits.ok_or_else(|| format!("expected a whole number from 0 to {}", SubpixelBits::MOST))
+}
+
+fn parse_depth_bits(text: &str) -> Result<DepthFormat, String> {
+    let bits = text.trim().parse().ok().and_then(DepthFormat::of_bits);
+    bits.ok_or_else(|| "expected 16, 24 or 32".to_owned())
 }
 
 fn parse_crop(text: &str) -> Result<[u32; 4], String> {

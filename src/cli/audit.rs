@@ -34,8 +34,14 @@ pub(super) fn run(arguments: &CheckArguments, writing: &Writing) -> Result<u8, F
     for path in arguments.diff.iter().chain(&arguments.csv) {
         output::check_target(path)?;
     }
-    let scene =
-        Scene::load(path, &Overrides { resolution: arguments.size, ..Overrides::default() })?;
+    let scene = Scene::load(
+        path,
+        &Overrides {
+            resolution: arguments.size,
+            skip_bad: arguments.skip_bad,
+            ..Overrides::default()
+        },
+    )?;
     let input = read::foreign(arguments, &scene)?;
     if !arguments.quiet {
         output::print_warnings(&scene.warnings);

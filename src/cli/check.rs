@@ -72,6 +72,7 @@ fn check_one<'a>(arguments: &CheckArguments, path: &'a Path) -> Result<Checked<'
         &Overrides {
             resolution: arguments.size,
             samples: arguments.samples,
+            skip_bad: arguments.skip_bad,
             ..Overrides::default()
         },
     )?;

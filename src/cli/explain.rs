@@ -10,7 +10,10 @@ use truecast::scene::{Overrides, Scene};
 use truecast::shade;
 
 pub(super) fn run(arguments: &ExplainArguments) -> Result<u8, Failure> {
-    let scene = Scene::load(&arguments.scene, &Overrides::default())?;
+    let scene = Scene::load(
+        &arguments.scene,
+        &Overrides { skip_bad: arguments.skip_bad, ..Overrides::default() },
+    )?;
     output::print_warnings(&scene.warnings);
     output::print_warnings(&advice(&scene));
     if arguments.json {

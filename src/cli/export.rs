@@ -16,7 +16,11 @@ pub(super) fn run(arguments: &ExportArguments, writing: &Writing) -> Result<u8, 
     let started = Instant::now();
     let scene = Scene::load(
         &arguments.scene,
-        &Overrides { resolution: arguments.size, ..Overrides::default() },
+        &Overrides {
+            resolution: arguments.size,
+            skip_bad: arguments.skip_bad,
+            ..Overrides::default()
+        },
     )?;
     if !arguments.quiet {
         output::print_warnings(&scene.warnings);

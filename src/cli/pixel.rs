@@ -27,7 +27,11 @@ struct Explained {
 pub(super) fn run(arguments: &PixelArguments) -> Result<u8, Failure> {
     let scene = Scene::load(
         &arguments.scene,
-        &Overrides { resolution: arguments.size, ..Overrides::default() },
+        &Overrides {
+            resolution: arguments.size,
+            skip_bad: arguments.skip_bad,
+            ..Overrides::default()
+        },
     )?;
     output::print_warnings(&scene.warnings);
     let frame = scene.camera.resolution();

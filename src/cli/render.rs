@@ -13,6 +13,7 @@ use truecast::film::{
     ClipCount, Film, FilmError, Format, encode_exr, encode_npy_ids, encode_png, format_of,
 };
 use truecast::pixel::{Resolution, Window};
+use truecast::raster::DepthBuffer;
 use truecast::render::visible::{Listing, to_csv};
 use truecast::render::{
     Accuracy, Frame, PlaneGroup, PlaneGroups, RenderOptions, VisibilityPath, render,
@@ -89,6 +90,7 @@ fn load(arguments: &RenderArguments) -> Result<Scene, Failure> {
         samples: arguments.samples,
         only_lights: arguments.light.clone(),
         ambient_only: arguments.ambient_only,
+        skip_bad: arguments.skip_bad,
     };
     Ok(match &arguments.scene {
         Some(path) => Scene::load(path, &overrides)?,
@@ -100,19 +102,32 @@ fn load(arguments: &RenderArguments) -> Result<Scene, Failure> {
 
 /// How visibility is decided; refuses what the path does not have.
 fn accuracy(arguments: &RenderArguments) -> Result<Accuracy, Failure> {
-    match (arguments.accuracy, arguments.path, arguments.subpixel_bits) {
-        (AccuracyWord::Exact, _, None) => Ok(Accuracy::Exact),
-        (AccuracyWord::Exact, _, Some(_)) => Err(Failure::usage(
-            "--subpixel-bits belongs to --accuracy watertight; the exact answer snaps nothing"
-                .to_owned(),
-        )),
-        (AccuracyWord::Watertight, PathWord::Raster, bits) => {
-            Ok(Accuracy::Watertight { subpixel_bits: bits.unwrap_or_default() })
-        }
-        (AccuracyWord::Watertight, PathWord::Cast, _) => Err(Failure::usage(
-            "--accuracy watertight exists on --path raster, not on --path cast".to_owned(),
-        )),
+    if arguments.accuracy == AccuracyWord::Exact {
+        let belongs = |option: &str, why: &str| {
+            Err(Failure::usage(format!("{option} belongs to --accuracy watertight; {why}")))
+        };
+        return match (arguments.subpixel_bits, arguments.depth_bits) {
+            (Some(_), _) => belongs("--subpixel-bits", "the exact answer snaps nothing"),
+            (_, Some(_)) => belongs("--depth-bits", "the exact answer rounds no depth"),
+            (None, None) => Ok(Accuracy::Exact),
+        };
     }
+    if arguments.path == PathWord::Cast {
+        let message = "--accuracy watertight exists on --path raster, not on --path cast";
+        return Err(Failure::usage(message.to_owned()));
+    }
+    let buffer = |format| {
+        DepthBuffer::new(format, arguments.near, arguments.far).ok_or_else(|| {
+            Failure::usage(format!(
+                "--near {} --far {}: expected 0 < near < far, both finite",
+                arguments.near, arguments.far
+            ))
+        })
+    };
+    Ok(Accuracy::Watertight {
+        subpixel_bits: arguments.subpixel_bits.unwrap_or_default(),
+        depth_buffer: arguments.depth_bits.map(buffer).transpose()?,
+    })
 }
 
 /// The watertight rasterizer has no order behind the nearest surface: it draws nothing see-through.

@@ -9,7 +9,8 @@
 //!   its f64 projection. So coverage can differ from the exact one only where the stability mask of
 //!   that half width is not set.
 //! * Depth is f32: [`DEPTH_ERROR`] relative to 1/t. Nearer by less, the wrong triangle may win;
-//!   equal depths show the triangle drawn first, which is the lowest id.
+//!   equal depths show the triangle drawn first, which is the lowest id. A [`DepthBuffer`] stores
+//!   window depths of few bits instead.
 //! * A triangle that reaches behind the near plane or beyond the guard band is clipped first
 //!   (`clip`); of its clipped copies only the shared edges are promised to have no holes.
 //!
@@ -18,6 +19,7 @@
 //! The exact path shares the camera's matrix with it, and nothing behind that.
 
 mod clip;
+mod depth_buffer;
 mod projection;
 mod snapped;
 mod tile;
@@ -28,9 +30,11 @@ use super::tile_lists::{Grid, TileLists};
 use crate::pixel::{Window, for_each_tile};
 use crate::scene::Scene;
 use crate::visibility::{Counting, VisibilityBuffer};
+pub use depth_buffer::{DepthBuffer, DepthFormat};
 use projection::Projector;
 use rayon::prelude::*;
 use snapped::Piece;
+use tile::DepthTest;
 
 /// Largest relative error of an interpolated depth against 1/t in the snapped triangle: one
 /// rounding to f32 (2^-24) each for the depth at a corner, the edge function, the doubled area, its
@@ -68,12 +72,14 @@ impl Default for SubpixelBits {
 /// camera's frame.
 ///
 /// Weights and t of the answer are the interpolated f32 numbers: `t_lo` and `t_hi` are equal and
-/// certain of nothing, the level is always [`crate::visibility::Level::Single`], and ties are not
-/// noticed. `done` is called once per finished tile of `window.tiles(TILE_SIDE)`, from any thread.
+/// certain of nothing, and the level is always [`crate::visibility::Level::Single`]. With a depth
+/// buffer, other triangles at the same stored depth are a tie; without one ties are not noticed.
+/// `done` is called once per finished tile of `window.tiles(TILE_SIDE)`, from any thread.
 pub fn rasterize_watertight(
     scene: &Scene,
     window: Window,
     subpixel_bits: SubpixelBits,
+    depth_buffer: Option<DepthBuffer>,
     counting: Counting,
     done: &(dyn Fn() + Sync),
 ) -> VisibilityBuffer {
@@ -88,6 +94,7 @@ pub fn rasterize_watertight(
         .with_min_len(1024)
         .flat_map_iter(|&id| snapped::pieces(&projector, id, scene.mesh.triangle(id)))
         .collect();
+    let test = DepthTest { buffer: depth_buffer, z_per_t: scene.camera.z_per_t() };
     let grid = Grid::new(window, TILE_SIDE);
     let placed = pieces.iter().enumerate().filter_map(|(number, piece)| {
         let pixels = piece.pixels(subpixel_bits, window)?;
@@ -95,7 +102,7 @@ pub fn rasterize_watertight(
     });
     let lists = TileLists::new(grid, placed);
     let tiles = for_each_tile(&window.tiles(TILE_SIDE), done, |tile| {
-        tile::rasterize_tile(&projector, &pieces, &lists, counting, tile)
+        tile::rasterize_tile(&projector, &test, &pieces, &lists, counting, tile)
     });
     VisibilityBuffer::from_tiles(window, counting, tiles)
 }

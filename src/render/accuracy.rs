@@ -2,10 +2,10 @@
 //!
 //! Only the words; the paths hold the arithmetic.
 
-use crate::raster::SubpixelBits;
+use crate::raster::{DepthBuffer, SubpixelBits};
 
 /// How visibility is decided.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub enum Accuracy {
     /// Every pixel is the exact answer.
     #[default]
@@ -15,6 +15,8 @@ pub enum Accuracy {
     Watertight {
         /// Bits of the grid below the pixel.
         subpixel_bits: SubpixelBits,
+        /// How depths are stored; `None` keeps the interpolated f32 1/w.
+        depth_buffer: Option<DepthBuffer>,
     },
 }
 

@@ -6,7 +6,9 @@ use super::progress::Progress;
 use crate::accel::{Accelerator, BuildPreset};
 use crate::cast::{self, cast, cast_layers};
 use crate::pixel::Window;
-use crate::raster::{self, SubpixelBits, rasterize, rasterize_layers, rasterize_watertight};
+use crate::raster::{
+    self, DepthBuffer, SubpixelBits, rasterize, rasterize_layers, rasterize_watertight,
+};
 use crate::scene::Scene;
 use crate::visibility::{Counting, Layers, VisibilityBuffer};
 
@@ -18,7 +20,7 @@ pub enum Answerer {
     /// The z-buffer rasterizer.
     Raster,
     /// The rasterizer of graphics processors. It knows only the nearest surface.
-    Watertight(SubpixelBits),
+    Watertight(SubpixelBits, Option<DepthBuffer>),
 }
 
 impl Answerer {
@@ -44,7 +46,7 @@ impl Answerer {
     const fn stage(&self) -> (&'static str, u32) {
         match self {
             Self::Cast(_) => ("cast", cast::TILE_SIDE),
-            Self::Raster | Self::Watertight(_) => ("rasterize", raster::TILE_SIDE),
+            Self::Raster | Self::Watertight(..) => ("rasterize", raster::TILE_SIDE),
         }
     }
 
@@ -72,7 +74,9 @@ impl Answerer {
         match self {
             Self::Cast(accelerator) => cast(scene, accelerator, window, counting, done),
             Self::Raster => rasterize(scene, window, counting, done),
-            Self::Watertight(bits) => rasterize_watertight(scene, window, *bits, counting, done),
+            Self::Watertight(bits, depth_buffer) => {
+                rasterize_watertight(scene, window, *bits, *depth_buffer, counting, done)
+            }
         }
     }
 
@@ -105,7 +109,7 @@ impl Answerer {
         match self {
             Self::Cast(accelerator) => cast_layers(scene, accelerator, nearest, &opaque, done),
             Self::Raster => rasterize_layers(scene, nearest, &opaque, done),
-            Self::Watertight(_) => Layers::none(nearest.window),
+            Self::Watertight(..) => Layers::none(nearest.window),
         }
     }
 }

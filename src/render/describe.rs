@@ -39,8 +39,13 @@ pub fn describe(scene: &Scene, accuracy: Accuracy) -> Value {
     if scene.samples != SampleGrid::CENTRE {
         document["samples"] = json!(scene.samples.side());
     }
-    if let Accuracy::Watertight { subpixel_bits } = accuracy {
+    if let Accuracy::Watertight { subpixel_bits, depth_buffer } = accuracy {
         document["subpixel_bits"] = json!(subpixel_bits.get());
+        if let Some(buffer) = depth_buffer {
+            document["depth_buffer"] = json!({
+                "bits": buffer.format().bits(), "near": buffer.near(), "far": buffer.far(),
+            });
+        }
     }
     document
 }

@@ -151,18 +151,23 @@ impl Assembly {
     }
 }
 
+/// A position in world space, rounded once; `None` where it is not finite or too large.
+pub(super) fn world_position(position: [f64; 3], transform: &Transform) -> Option<[f32; 3]> {
+    let stored = transform.position(position).map(|c| c as f32);
+    // NaN fails the comparison too.
+    stored.iter().all(|c| f64::from(c.abs()) <= LARGEST_POSITION).then_some(stored)
+}
+
 /// All positions of a part in world space, rounded once.
 fn world_positions(part: &MeshPart, transform: &Transform) -> Result<Vec<[f32; 3]>, AssemblyFault> {
     let mut rounded = Vec::with_capacity(part.positions.len());
     for (index, &position) in part.positions.iter().enumerate() {
-        let position = transform.position(position);
-        let stored = position.map(|c| c as f32);
-        // NaN fails the comparison too.
-        if !stored.iter().all(|c| f64::from(c.abs()) <= LARGEST_POSITION) {
+        let Some(stored) = world_position(position, transform) else {
+            let position = transform.position(position);
             let uses = |corners: &[u32; 3]| corners.contains(&(index as u32));
             let triangle = part.corners.iter().position(uses);
             return Err(AssemblyFault::Position { position, triangle });
-        }
+        };
         rounded.push(stored);
     }
     Ok(rounded)

@@ -61,6 +61,7 @@
 //! | `mesh.file` | this or `shape` | an OBJ file |
 //! | `mesh.shape` | this or `file` | `{ NAME = { … } }`: a generated mesh, see [`shape`] |
 //! | `mesh.name` | none | name by which a light's `parent` refers to it; no name twice |
+//! | `mesh.polygons` | `"ears"` | how polygons of `file` become triangles: `ears`, convex as a fan and concave by cutting ears; `fan`, all as a fan from the first corner |
 //! | `mesh.material` | the file's own, else the default one | name of a material |
 //! | `mesh.shading` | `"phong"` | `phong`: normals are interpolated; `gouraud`: colours lit at the corners are; `flat`: one normal per triangle; `vertex-color`: the vertices' colours, unlit |
 //! | `mesh.sides` | `"single"` | `"double"`: the shading normal turns towards the eye |

@@ -22,6 +22,10 @@ pub struct Overrides {
     pub ambient_only: bool,
     /// Another number of samples per pixel.
     pub samples: Option<SampleGrid>,
+    /// Leave out the faces of a mesh file with a position that is not finite or out of range, with
+    /// a warning, instead of refusing the file. Ids count the triangles that remain. Generated
+    /// normals beside a finite face that is out of range still count it.
+    pub skip_bad: bool,
 }
 
 /// All faults of a scene and its meshes; at least one. Displayed one a line, advice below.

@@ -25,6 +25,7 @@ use crate::scene::error::{Place, SceneError};
 use crate::scene::material::Material;
 use crate::scene::part::MeshPart;
 use crate::scene::texture::TextureRequests;
+pub use polygon::Polygons;
 use report::Report;
 use std::io;
 use std::path::Path;
@@ -32,7 +33,7 @@ use std::path::Path;
 /// What an OBJ file and its material libraries hold.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ObjFile {
-    /// The triangles in file order; convex polygons are fans, concave ones lose ears. Positions are
+    /// The triangles in file order; polygons are cut as [`Polygons`] says. Positions are
     /// those that faces use, in order of first use.
     pub part: MeshPart,
     /// One material per entry of `part.material_names`, with that name. Names that no library
@@ -44,11 +45,21 @@ pub struct ObjFile {
     pub warnings: Vec<String>,
 }
 
+/// How a file is read.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub struct ObjOptions {
+    /// How polygons become triangles.
+    pub polygons: Polygons,
+    /// Leave out, with a warning, the faces that use a position which is not finite; otherwise such
+    /// a position is an error. One that no face uses is then no fault at all.
+    pub skip_bad: bool,
+}
+
 /// Reads an OBJ file and the libraries that it names, which are looked for beside it.
 ///
 /// # Errors
 /// A file that cannot be read ([`crate::scene::error::Fault::Reading`]), or what [`parse`] finds.
-pub fn load(path: &Path) -> Result<ObjFile, Vec<SceneError>> {
+pub fn load(path: &Path, options: ObjOptions) -> Result<ObjFile, Vec<SceneError>> {
     let bytes = read(path).map_err(|error| {
         let message = match error.kind() {
             io::ErrorKind::NotFound => "the file does not exist".to_owned(),
@@ -57,7 +68,7 @@ pub fn load(path: &Path) -> Result<ObjFile, Vec<SceneError>> {
         };
         vec![SceneError::reading(Place::file(path), message)]
     })?;
-    parse(&bytes, path, &read)
+    parse(&bytes, path, options, &read)
 }
 
 /// Reads OBJ text. `path` names the file in messages and the folder of its libraries; `open`
@@ -69,11 +80,12 @@ pub fn load(path: &Path) -> Result<ObjFile, Vec<SceneError>> {
 pub fn parse(
     bytes: &[u8],
     path: &Path,
+    options: ObjOptions,
     open: &dyn Fn(&Path) -> io::Result<Vec<u8>>,
 ) -> Result<ObjFile, Vec<SceneError>> {
     let mut report = Report::default();
     let text = statement::decode(bytes, path, &mut report).map_err(|error| vec![error])?;
-    let mut scan = scan::scan(&text, path, &mut report);
+    let mut scan = scan::scan(&text, path, options.skip_bad, &mut report);
     drop(text);
     let (materials, textures) = materials::resolve(&scan, path, open, &mut report);
     if report.has_errors() {
@@ -83,7 +95,7 @@ pub fn parse(
         let error = SceneError::scene(Place::file(path), message);
         vec![error.with_help("this is a fault of the program; please report it with the file")]
     })?;
-    let part = assembly::assemble(&scan, indexed, path, &mut report);
+    let part = assembly::assemble(&scan, indexed, options.polygons, path, &mut report);
     if report.has_errors() {
         return Err(report.into_errors());
     }

@@ -2,6 +2,7 @@
 //! simulate. Every fault is reported; the scene is made only of what has none.
 
 mod camera;
+mod left_out;
 mod library;
 mod light;
 mod light_choice;
@@ -41,7 +42,8 @@ pub(super) fn scene(
     let frames = light_frame::Frames::new(file, camera.as_ref(), &transforms, faults);
     let (lights, light_names) = light_choice::resolve(file, &frames, overrides, faults);
     let naive_normals = switches.rules().naive_normals;
-    let assembly = mesh::resolve(file, base, transforms, &mut materials, naive_normals, faults);
+    let made = mesh::Making { base, overrides, naive_normals };
+    let assembly = mesh::resolve(file, &made, transforms, &mut materials, faults);
     let textures = texture::resolve(file, &mut materials, &assembly, faults);
     Some(Scene {
         camera: camera?,

@@ -106,7 +106,7 @@ impl Reader<'_, '_, '_> {
         let changed =
             if self.cell.set.is_empty() { None } else { Some(self.change(&path, &text)?) };
         let base = path.parent().unwrap_or(Path::new(""));
-        let overrides = Overrides { resolution: self.sheet.size };
+        let overrides = Overrides { resolution: self.sheet.size, ..Overrides::default() };
         let scene = Scene::from_toml(changed.as_deref().unwrap_or(&text), &path, base, &overrides);
         let traced = |reader: &Self, place: Place| match &changed {
             Some(changed) => reader.trace(&path, &text, changed, place),

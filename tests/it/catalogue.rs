@@ -1,13 +1,12 @@
 //! The catalogue of hard cases, by their names: H01 to H18 coverage, H20 to H31 depth, H40 to H4B
 //! the eye. Each is one test whose name begins with the case's, and each scene goes through every
-//! configuration of both paths and before the arbiter (`configurations`).
+//! configuration of both paths and before the arbiter (`support::configurations`).
 //!
 //! What is asserted here beyond agreement is known beforehand: a count of pixels from a program of
 //! its own, an invariant, or a transformation that must not change the picture. G(8), the camera
 //! of most cases, looks from the origin along +z through 17 × 17 pixels; at depth 8 a unit is a
 //! pixel, and the sample of pixel (8, 8) is the point (0, 0).
 
-pub(crate) mod configurations;
 mod coverage;
 mod crowds;
 mod depth;
@@ -17,8 +16,8 @@ mod order;
 mod rays;
 mod ties;
 
+use crate::support::configurations::agree_everywhere;
 use crate::support::golden;
-use configurations::agree_everywhere;
 use truecast::scene::Scene;
 use truecast::visibility::{Cover, VisibilityBuffer};
 

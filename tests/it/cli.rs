@@ -209,6 +209,26 @@ fn bad_meshes_end_with_3_and_name_the_line() {
 }
 
 #[test]
+fn bad_triangles_are_skipped_on_demand_by_every_command() {
+    let folder = Folder::new();
+    folder.write("mesh.obj", &format!("{MESH}v nan 0 0\nf 1 2 4\nf 4 2 3\n"));
+    for command in [
+        &["render", "scene.toml", "-o", "a.npy"][..],
+        &["check", "scene.toml"],
+        &["export", "scene.toml", "-o", "bundle"],
+        &["pixel", "scene.toml", "20", "15"],
+        &["explain", "scene.toml"],
+    ] {
+        let refused = truecast(folder.0.path(), command);
+        assert_eq!(refused.status, 3, "{command:?}: {}", refused.stderr);
+        let skipped = truecast(folder.0.path(), &[command, &["--skip-bad"]].concat());
+        assert_eq!(skipped.status, 0, "{command:?}: {}", skipped.stderr);
+        let warning = "mesh.obj:6: a face with a corner that is not finite is left out (2 times";
+        assert!(skipped.stderr.contains(warning), "{command:?}: {}", skipped.stderr);
+    }
+}
+
+#[test]
 fn coordinates_of_1e19_and_more_are_rendered() {
     let folder = Folder::new();
     folder.write("mesh.obj", "v -1e19 -1e19 0\nv 1e30 -1e19 0\nv 0 8e37 0\nf 1 2 3\nf 1 3 2\n");

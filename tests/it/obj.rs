@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use truecast::mesh::NO_ATTRIBUTE;
 use truecast::scene::error::Fault;
 use truecast::scene::material::Material;
-use truecast::scene::obj::{ObjFile, load, parse};
+use truecast::scene::obj::{ObjFile, ObjOptions, load, parse};
 
 /// Four corners of the unit square.
 const SQUARE: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
@@ -21,7 +21,7 @@ fn no_library(_: &Path) -> io::Result<Vec<u8>> {
 #[track_caller]
 fn read(text: &str) -> ObjFile {
     let text = format!("{SQUARE}{text}");
-    match parse(text.as_bytes(), Path::new("t.obj"), &no_library) {
+    match parse(text.as_bytes(), Path::new("t.obj"), ObjOptions::default(), &no_library) {
         Ok(file) => file,
         Err(errors) => panic!("{errors:?}"),
     }
@@ -31,7 +31,7 @@ fn read(text: &str) -> ObjFile {
 #[track_caller]
 fn faults(text: &str) -> Vec<String> {
     let text = format!("{SQUARE}{text}");
-    match parse(text.as_bytes(), Path::new("t.obj"), &no_library) {
+    match parse(text.as_bytes(), Path::new("t.obj"), ObjOptions::default(), &no_library) {
         Ok(file) => panic!("accepted: {file:?}"),
         Err(errors) => {
             assert!(errors.iter().all(|error| error.fault == Fault::Scene));
@@ -48,7 +48,7 @@ fn read_with(text: &str, libraries: &[(&str, &str)]) -> ObjFile {
         found.map_or_else(|| no_library(path), |(_, text)| Ok(text.as_bytes().to_vec()))
     };
     let text = format!("{SQUARE}{text}");
-    parse(text.as_bytes(), Path::new("folder/t.obj"), &open).unwrap()
+    parse(text.as_bytes(), Path::new("folder/t.obj"), ObjOptions::default(), &open).unwrap()
 }
 
 /// The material of each triangle.
@@ -253,24 +253,29 @@ fn groups_objects_comments_continuations_tabs_and_line_ends() {
 fn bytes_that_are_not_utf8_warn_and_utf16_is_refused() {
     let mut bytes = format!("{SQUARE}# caf").into_bytes();
     bytes.extend(b"\xE9\nf 1 2 3\n");
-    let file = parse(&bytes, Path::new("t.obj"), &no_library).unwrap();
+    let file = parse(&bytes, Path::new("t.obj"), ObjOptions::default(), &no_library).unwrap();
     assert_eq!(file.part.corners.len(), 1);
     assert!(file.warnings.len() == 1 && file.warnings[0].starts_with("t.obj:5: "));
     let utf16: Vec<u8> =
         [0xFF, 0xFE].into_iter().chain(SQUARE.bytes().flat_map(|b| [b, 0])).collect();
-    let errors = parse(&utf16, Path::new("t.obj"), &no_library).unwrap_err();
+    let errors = parse(&utf16, Path::new("t.obj"), ObjOptions::default(), &no_library).unwrap_err();
     assert_eq!(errors[0].to_string(), "t.obj: the file is UTF-16 text");
-    let errors = parse(&utf16[2..], Path::new("t.obj"), &no_library).unwrap_err();
+    let errors =
+        parse(&utf16[2..], Path::new("t.obj"), ObjOptions::default(), &no_library).unwrap_err();
     assert_eq!(errors[0].place.line, 1);
     let marked = [b"\xEF\xBB\xBF".as_slice(), SQUARE.as_bytes(), b"f 1 2 3"].concat();
-    assert_eq!(parse(&marked, Path::new("t.obj"), &no_library).unwrap().warnings, [""; 0]);
+    assert_eq!(
+        parse(&marked, Path::new("t.obj"), ObjOptions::default(), &no_library).unwrap().warnings,
+        [""; 0]
+    );
 }
 
 #[test]
 fn files_without_faces_are_refused() {
     assert_eq!(faults("l 1 2 3\n"), ["t.obj: the file holds no faces"]);
     for text in ["", "\n", "# nothing\n", "\\"] {
-        let errors = parse(text.as_bytes(), Path::new("t.obj"), &no_library).unwrap_err();
+        let errors = parse(text.as_bytes(), Path::new("t.obj"), ObjOptions::default(), &no_library)
+            .unwrap_err();
         assert_eq!(errors[0].message, "the file holds no faces");
     }
 }
@@ -342,7 +347,8 @@ fn one_statement_may_name_several_libraries_or_one_with_blanks() {
 fn a_library_fault_has_its_own_file_and_line() {
     let open = |_: &Path| Ok(b"newmtl a\nKd 0.8\nKs -1\n".to_vec());
     let text = format!("mtllib a.mtl\n{SQUARE}f 1 2 3\n");
-    let errors = parse(text.as_bytes(), Path::new("folder/t.obj"), &open).unwrap_err();
+    let errors = parse(text.as_bytes(), Path::new("folder/t.obj"), ObjOptions::default(), &open)
+        .unwrap_err();
     assert_eq!(errors.len(), 1);
     assert_eq!(errors[0].place.file, PathBuf::from("folder").join("a.mtl"));
     assert_eq!((errors[0].place.line, errors[0].place.column), (3, 4));
@@ -354,7 +360,7 @@ fn files_are_loaded_with_the_libraries_beside_them() {
     let path = folder.path().join("square.obj");
     std::fs::write(&path, format!("mtllib m.mtl\n{SQUARE}usemtl a\nf 1 2 3 4\n")).unwrap();
     std::fs::write(folder.path().join("m.mtl"), "newmtl a\nKd 0.25\nTf 0.5\n").unwrap();
-    let file = load(&path).unwrap();
+    let file = load(&path, ObjOptions::default()).unwrap();
     assert_eq!(file.materials[0].kd, [0.25; 3]);
     assert_eq!(file.part.triangle_materials, [0, 0]);
     assert_eq!(file.part.lines, [7, 7]);
@@ -362,9 +368,9 @@ fn files_are_loaded_with_the_libraries_beside_them() {
     // A folder in the library's place is a warning; in the file's place, an error.
     std::fs::remove_file(folder.path().join("m.mtl")).unwrap();
     std::fs::create_dir(folder.path().join("m.mtl")).unwrap();
-    assert!(load(&path).unwrap().warnings[0].contains("folder"));
+    assert!(load(&path, ObjOptions::default()).unwrap().warnings[0].contains("folder"));
     for (path, said) in [(folder.path(), "folder"), (&folder.path().join("no.obj"), "exist")] {
-        let errors = load(path).unwrap_err();
+        let errors = load(path, ObjOptions::default()).unwrap_err();
         assert_eq!((errors.len(), errors[0].fault), (1, Fault::Reading));
         assert!(errors[0].message.contains(said), "{}", errors[0]);
     }

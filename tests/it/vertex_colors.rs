@@ -6,7 +6,7 @@ use std::path::Path;
 use tempfile::TempDir;
 use truecast::mesh::TriangleId;
 use truecast::scene::hash::content_hash;
-use truecast::scene::obj::{ObjFile, parse};
+use truecast::scene::obj::{ObjFile, ObjOptions, parse};
 use truecast::scene::{Overrides, Scene};
 
 const RED: [f64; 3] = [1.0, 0.0, 0.0];
@@ -16,7 +16,7 @@ const WHITE: [f64; 3] = [1.0; 3];
 
 fn read(text: &str) -> Result<ObjFile, Vec<String>> {
     let none = |_: &Path| Err(io::Error::from(io::ErrorKind::NotFound));
-    parse(text.as_bytes(), Path::new("t.obj"), &none)
+    parse(text.as_bytes(), Path::new("t.obj"), ObjOptions::default(), &none)
         .map_err(|errors| errors.iter().map(ToString::to_string).collect())
 }
 

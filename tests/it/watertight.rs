@@ -21,7 +21,7 @@ const BITS: [u32; 4] = [0, 4, 8, 12];
 fn snapped(scene: &Scene, bits: u32) -> VisibilityBuffer {
     let window = scene.camera.resolution().window();
     let bits = SubpixelBits::new(bits).unwrap();
-    rasterize_watertight(scene, window, bits, Counting::All, &|| ())
+    rasterize_watertight(scene, window, bits, None, Counting::All, &|| ())
 }
 
 /// A camera whose pixels are on no grid, looking at the origin from distance 3.
@@ -222,6 +222,15 @@ fn the_first_drawn_of_equal_depths_stays_and_threads_do_not_show() {
     assert!(same > 40_000 * 99 / 100, "{same}");
 }
 
+/// How many pixels a film's plane of ties marks.
+fn tied_pixels(film: &truecast::film::Film) -> usize {
+    use truecast::film::Samples;
+    match film.plane("verdict.tie").unwrap() {
+        Samples::Uint(ties) => ties.iter().filter(|&&tie| tie != 0).count(),
+        other => panic!("ties are whole numbers: {other:?}"),
+    }
+}
+
 #[test]
 fn the_command_line_renders_it_and_says_where_it_exists() {
     let folder = tempfile::TempDir::new().unwrap();
@@ -242,6 +251,17 @@ fn the_command_line_renders_it_and_says_where_it_exists() {
         (&["--subpixel-bits", "4", "--path", "raster"], "--accuracy watertight"),
         (&["--accuracy", "watertight", "--path", "raster", "--subpixel-bits", "13"], "12"),
         (&["--accuracy", "watertight", "--path", "raster", "--subpixel-bits", "x"], "12"),
+        (&["--depth-bits", "24"], "--accuracy watertight"),
+        (&["--near", "1"], "--depth-bits"),
+        (&["--accuracy", "watertight", "--path", "raster", "--depth-bits", "8"], "16, 24 or 32"),
+        (
+            &["--accuracy", "watertight", "--path", "raster", "--depth-bits", "16", "--near", "0"],
+            "0 < near < far",
+        ),
+        (
+            &["--accuracy", "watertight", "--path", "raster", "--depth-bits", "16", "--far", "nan"],
+            "0 < near < far",
+        ),
     ] {
         let (status, message) = truecast(arguments);
         assert_eq!(status, Some(2), "{arguments:?}: {message}");
@@ -262,4 +282,13 @@ fn the_command_line_renders_it_and_says_where_it_exists() {
     let plane = |film: usize, name: &str| films[film].plane(name).unwrap().clone();
     assert_ne!(plane(0, "id.prim"), plane(1, "id.prim"));
     assert!(films[0].plane("stable").is_some());
+    // A depth buffer is in the description and shows its ties; without it nothing ties.
+    let coarse = ["--depth-bits", "16", "--near", "1e-3", "-o", "coarse.exr"];
+    assert_eq!(truecast(&[&watertight[..], &coarse].concat()).0, Some(0));
+    let film = truecast::film::load_exr(&folder.path().join("coarse.exr")).unwrap();
+    let description: serde_json::Value = serde_json::from_str(&film.description).unwrap();
+    let expected = serde_json::json!({ "bits": 16, "near": 1e-3, "far": 1000.0 });
+    assert_eq!(description["depth_buffer"], expected);
+    assert_eq!(tied_pixels(&films[0]), 0);
+    assert!(tied_pixels(&film) > 100, "{}", tied_pixels(&film));
 }

@@ -133,7 +133,7 @@ pub(super) fn document(
         "accuracy": accuracy.name(),
         "subpixel_bits": match accuracy {
             Accuracy::Exact => None,
-            Accuracy::Watertight { subpixel_bits } => Some(subpixel_bits.get()),
+            Accuracy::Watertight { subpixel_bits, .. } => Some(subpixel_bits.get()),
         },
         "width": frame.film.resolution.width(),
         "height": frame.film.resolution.height(),

@@ -1,5 +1,6 @@
-//! One tile of the watertight rasterizer: pieces in the order of ids, into an f32 z-buffer.
+//! One tile of the watertight rasterizer: pieces in the order of ids, into a z-buffer, f32 or of few bits.
 
+use super::depth_buffer::DepthBuffer;
 use super::projection::Projector;
 use super::snapped::{Piece, Scannable, sample};
 use crate::mesh::Barycentric;
@@ -8,16 +9,37 @@ use crate::raster::bounds::Rectangle;
 use crate::raster::tile_lists::{Listed, TileLists};
 use crate::visibility::{Counting, Facing, Level, VisibilityTile, Visible};
 
+/// What is compared: interpolated depths as they are, or as a depth buffer stores them.
+pub(super) struct DepthTest {
+    pub(super) buffer: Option<DepthBuffer>,
+    /// Depth along the view axis per unit of t.
+    pub(super) z_per_t: f64,
+}
+
+impl DepthTest {
+    /// The lower, the nearer; a depth is an interpolated 1/w.
+    fn rank(&self, projector: &Projector<'_>, depth: f32) -> f64 {
+        match &self.buffer {
+            None => -f64::from(depth),
+            Some(buffer) => buffer.stored(projector.ray_parameter(depth) * self.z_per_t),
+        }
+    }
+}
+
 /// The nearest piece so far, and its depth.
 #[derive(Clone, Copy)]
 struct Fragment {
     piece: u32,
     depth: f32,
+    rank: f64,
+    /// Another triangle has the same rank.
+    tie: bool,
 }
 
 /// Everything visible in one tile.
 pub(super) fn rasterize_tile(
     projector: &Projector<'_>,
+    test: &DepthTest,
     pieces: &[Piece],
     lists: &TileLists,
     counting: Counting,
@@ -36,10 +58,15 @@ pub(super) fn rasterize_tile(
                 cover.crossed += 1;
                 cover.signed += scannable.volume_sign;
             }
-            // Nearest is the greatest 1/w; the first drawn stays where depths are equal.
+            // The first drawn stays where depths are equal.
             let depth = scannable.depth(values);
-            if fragments[index].is_none_or(|nearest| depth > nearest.depth) {
-                fragments[index] = Some(Fragment { piece: number, depth });
+            let rank = test.rank(projector, depth);
+            match &mut fragments[index] {
+                Some(nearest) if rank == nearest.rank => {
+                    nearest.tie |= pieces[nearest.piece as usize].id != piece.id;
+                }
+                Some(nearest) if rank > nearest.rank => {}
+                nearest => *nearest = Some(Fragment { piece: number, depth, rank, tie: false }),
             }
         });
         tile.levels.single += pixels.len();
@@ -48,7 +75,9 @@ pub(super) fn rasterize_tile(
         tile.visible[index] = fragment.and_then(|fragment| {
             let piece = &pieces[fragment.piece as usize];
             let scannable = piece.scannable(projector.orientation)?;
-            Some(answer(projector, &scannable, window.pixel(index), fragment.depth))
+            let tie = fragment.tie && test.buffer.is_some();
+            let seen = answer(projector, &scannable, window.pixel(index), fragment.depth);
+            Some(Visible { tie, ..seen })
         });
     }
     tile

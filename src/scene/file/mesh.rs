@@ -80,6 +80,8 @@ pub struct MeshFile {
     pub source: SourceFile,
     /// Name by which lights refer to it.
     pub name: Option<Spanned<String>>,
+    /// How the file's polygons become triangles.
+    pub polygons: Option<Spanned<String>>,
     /// Name of a `[[material]]`.
     pub material: Option<Spanned<String>>,
     /// How normals vary over a triangle.
@@ -117,6 +119,7 @@ impl MeshFile {
         let file = keys.read("file", text, faults);
         let shape = keys.ask("shape");
         let name = keys.read("name", text, faults);
+        let polygons = keys.read("polygons", text, faults);
         let material = keys.read("material", text, faults);
         let shading = keys.read("shading", text, faults);
         let sides = keys.read("sides", text, faults);
@@ -135,6 +138,9 @@ impl MeshFile {
             }
             _ => {}
         }
+        if let (None, Some(key)) = (place_of("file"), place_of("polygons")) {
+            keys.fault(&key.span(), "`polygons` belongs to a mesh with `file`", faults);
+        }
         let shape = shape.and_then(|value| GeneratedFile::read(value, faults));
         if !keys.close(faults) {
             return None;
@@ -147,6 +153,7 @@ impl MeshFile {
         Some(Self {
             source,
             name,
+            polygons,
             material,
             shading,
             sides,

@@ -6,7 +6,7 @@ use crate::scene::error::{Place, SceneError};
 use crate::scene::obj::corner::Kind;
 use crate::scene::obj::indexing::Indexed;
 use crate::scene::obj::polygon::{
-    MAX_CONCAVE_CORNERS, Outcome, scale_corners, triangulate, vector_area,
+    MAX_CONCAVE_CORNERS, Outcome, Polygons, append_fan, scale_corners, triangulate, vector_area,
 };
 use crate::scene::obj::report::Report;
 use crate::scene::obj::scanned::{Face, Scan};
@@ -19,6 +19,7 @@ use std::path::Path;
 pub(super) fn assemble(
     scan: &Scan,
     indexed: Indexed,
+    polygons: Polygons,
     file: &Path,
     report: &mut Report,
 ) -> MeshPart {
@@ -52,7 +53,7 @@ pub(super) fn assemble(
         normals: &corner_normals,
         uvs: &indexed.corner_uvs,
     };
-    append_triangles(scan, corners, &mut part, file, report);
+    append_triangles(scan, corners, polygons, &mut part, file, report);
     part
 }
 
@@ -106,6 +107,7 @@ struct Corners<'a> {
 fn append_triangles(
     scan: &Scan,
     corners: Corners<'_>,
+    polygons: Polygons,
     part: &mut MeshPart,
     file: &Path,
     report: &mut Report,
@@ -121,6 +123,8 @@ fn append_triangles(
         scale_corners(positions.map(|&p| part.positions[p as usize]), &mut scaled);
         if range.len() == 3 {
             triangles.push([0, 1, 2]);
+        } else if polygons == Polygons::Fan {
+            append_fan(range.len(), &mut triangles);
         } else {
             match triangulate(&scaled, &mut triangles) {
                 Outcome::Covered => {}

@@ -187,7 +187,7 @@ mod tests {
 
     fn scanned(text: &str) -> Scan {
         let mut report = Report::default();
-        let scan = scan::scan(text, Path::new("t.obj"), &mut report);
+        let scan = scan::scan(text, Path::new("t.obj"), false, &mut report);
         assert!(!report.has_errors(), "{:?}", report.into_errors());
         scan
     }

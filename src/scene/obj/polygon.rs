@@ -1,10 +1,27 @@
-//! Polygons into triangles: convex ones as a fan, concave ones by clipping ears.
+//! Polygons into triangles: convex ones as a fan, concave ones by clipping ears, or, where it is
+//! asked for, all of them as a fan.
 //!
 //! Works in f64 with named bounds; which triangles result is a convention, not a proof. Newell's
 //! normal after Sutherland, Sproull and Schumacker, "A Characterization of Ten Hidden-Surface
 //! Algorithms"; ears after Meisters, "Polygons Have Ears".
 
 mod ears;
+
+/// How polygons become triangles.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Polygons {
+    /// Convex polygons as a fan, concave ones by clipping ears: every polygon is covered once.
+    #[default]
+    Ears,
+    /// Every polygon as a fan around its first corner, as many programs do; of a concave polygon
+    /// that covers other places than the polygon.
+    Fan,
+}
+
+impl Polygons {
+    /// Every way, with its word.
+    pub const ALL: [(&'static str, Self); 2] = [("ears", Self::Ears), ("fan", Self::Fan)];
+}
 
 /// Corner numbers of one triangle within its polygon.
 pub(super) type Triangle = [u32; 3];
@@ -109,7 +126,7 @@ pub(super) fn triangulate(scaled: &[[f64; 3]], triangles: &mut Vec<Triangle>) ->
 }
 
 /// (0,1,2), (0,2,3), …
-fn append_fan(count: usize, triangles: &mut Vec<Triangle>) {
+pub(super) fn append_fan(count: usize, triangles: &mut Vec<Triangle>) {
     triangles.extend((2..count as u32).map(|corner| [0, corner - 1, corner]));
 }
 

@@ -10,12 +10,13 @@ use crate::scene::obj::corner::{self, Kind};
 use crate::scene::obj::report::{Report, quote};
 use crate::scene::obj::scanned::{Corner, Face, Name, Scan};
 use crate::scene::obj::statement::{Statements, Token};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 
 /// Reads all statements. Faults go to the report; with any, the result is incomplete.
-pub(super) fn scan(text: &str, file: &Path, report: &mut Report) -> Scan {
-    let mut state = State::new();
+/// With `skip_bad`, faces with a position that is not finite are no fault and left out.
+pub(super) fn scan(text: &str, file: &Path, skip_bad: bool, report: &mut Report) -> Scan {
+    let mut state = State::new(skip_bad);
     let mut walk = Statements::new(text, file);
     while walk.advance() {
         if let Err(error) = state.read(&walk, file, report) {
@@ -61,10 +62,13 @@ struct State<'a> {
     material_positions: HashMap<String, u32>,
     /// References to statements that had not come yet when they were read.
     forward: Vec<(Kind, u32, Token<'a>)>,
+    skip_bad: bool,
+    /// Positions that are not finite, if they are skipped.
+    bad_positions: HashSet<u32>,
 }
 
 impl<'a> State<'a> {
-    fn new() -> Self {
+    fn new(skip_bad: bool) -> Self {
         Self {
             scan: Scan::default(),
             colored: 0,
@@ -74,6 +78,8 @@ impl<'a> State<'a> {
             next_material: None,
             material_positions: HashMap::new(),
             forward: Vec::new(),
+            skip_bad,
+            bad_positions: HashSet::new(),
         }
     }
 
@@ -187,11 +193,20 @@ impl<'a> State<'a> {
             );
             return Err(SceneError::scene(walk.place(&keyword), message));
         }
+        let width = if kind == Kind::Uv { 2 } else { 3 };
+        let is_skipped = self.skip_bad
+            && kind == Kind::Position
+            && values[..width].iter().any(|token| is_infinite_or_nan(token.text));
+        if is_skipped {
+            // It keeps its number, and the faces that use it go in the end.
+            self.bad_positions.insert(self.scan.counts[kind as usize] - 1);
+            self.scan.attributes.push_str("v 0 0 0\n");
+            return Ok(());
+        }
         for token in values {
             walk.number(token)?;
         }
         let attributes = &mut self.scan.attributes;
-        let width = if kind == Kind::Uv { 2 } else { 3 };
         attributes.push_str(keyword.text);
         for position in 0..width {
             attributes.push(' ');
@@ -273,7 +288,7 @@ impl<'a> State<'a> {
 
     fn finish(mut self, walk: &Statements<'_>, file: &Path, report: &mut Report) -> Scan {
         // Positive indices may point forward, so that only the end shows which exist.
-        for (kind, index, token) in self.forward {
+        for (kind, index, token) in std::mem::take(&mut self.forward) {
             let count = self.scan.counts[kind as usize];
             if index >= count {
                 report.error_with(|| {
@@ -290,12 +305,44 @@ impl<'a> State<'a> {
                 format!("{missing} of {positions} vertices have no colour; they are white");
             report.warn(file, 0, &sentence);
         }
+        self.leave_out_bad_faces(file, report);
         if !self.has_groups {
             self.scan.faces.iter_mut().for_each(|face| face.group = 1);
         }
         if self.scan.faces.is_empty() && !report.has_errors() {
-            report.error(SceneError::scene(Place::file(file), "the file holds no faces"));
+            let message = match self.bad_positions.is_empty() {
+                true => "the file holds no faces",
+                false => "the file holds no faces with finite corners",
+            };
+            report.error(SceneError::scene(Place::file(file), message));
         }
         self.scan
     }
+
+    /// Takes the faces out that use a bad position.
+    fn leave_out_bad_faces(&mut self, file: &Path, report: &mut Report) {
+        if self.bad_positions.is_empty() {
+            return;
+        }
+        let all = std::mem::take(&mut self.scan.corners);
+        let mut start = 0;
+        self.scan.faces.retain_mut(|face| {
+            let corners = &all[start..face.corners_end];
+            start = face.corners_end;
+            let is_bad = corners.iter().any(|corner| self.bad_positions.contains(&corner[0]));
+            if is_bad {
+                let sentence = "a face with a corner that is not finite is left out";
+                report.warn(file, face.line, sentence);
+                return false;
+            }
+            self.scan.corners.extend_from_slice(corners);
+            face.corners_end = self.scan.corners.len();
+            true
+        });
+    }
+}
+
+/// Whether a text is a number, but not a finite one.
+fn is_infinite_or_nan(text: &str) -> bool {
+    text.parse::<f64>().is_ok_and(|number| !number.is_finite())
 }

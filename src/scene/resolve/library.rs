@@ -3,14 +3,14 @@
 use super::material::Materials;
 use crate::scene::error::{Place, SceneError};
 use crate::scene::file::text::Faults;
-use crate::scene::obj::{self, ObjFile};
+use crate::scene::obj::{self, ObjFile, ObjOptions};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 use toml::Spanned;
 
-/// Mesh files by path; `None` for one with faults, which were reported.
+/// Mesh files by path and by how they are read; `None` for one with faults, which were reported.
 #[derive(Default)]
-pub(super) struct Library(HashMap<PathBuf, Option<ReadFile>>);
+pub(super) struct Library(HashMap<(PathBuf, ObjOptions), Option<ReadFile>>);
 
 /// A mesh file and the numbers of its materials.
 pub(super) struct ReadFile {
@@ -36,17 +36,23 @@ impl Library {
     pub(super) fn read(
         &mut self,
         path: &Path,
+        options: ObjOptions,
         written: &Spanned<String>,
         faults: &mut Faults<'_>,
     ) -> Option<&mut ReadFile> {
-        let read = self.0.entry(path.to_owned()).or_insert_with(|| {
+        let read = self.0.entry((path.to_owned(), options)).or_insert_with(|| {
             if let Err(error) = check_readable(path, faults.place(&written.span())) {
                 faults.errors.push(error);
                 return None;
             }
-            match obj::load(path) {
+            match obj::load(path, options) {
                 Ok(file) => {
-                    faults.warnings.extend(file.warnings.iter().cloned());
+                    // A file that is read in two ways says nearly all things twice.
+                    for warning in &file.warnings {
+                        if !faults.warnings.contains(warning) {
+                            faults.warnings.push(warning.clone());
+                        }
+                    }
                     Some(ReadFile { file, numbers: None })
                 }
                 Err(errors) => {

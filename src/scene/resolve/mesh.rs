@@ -1,5 +1,6 @@
 //! The meshes: read or made, given their materials, transformed and assembled.
 
+use super::left_out::without_bad_faces;
 use super::library::Library;
 use super::material::Materials;
 use super::vertex_normals;
@@ -8,6 +9,8 @@ use crate::scene::assemble::{Assembly, AssemblyFault, Piece};
 use crate::scene::error::{Place, SceneError};
 use crate::scene::file::text::Faults;
 use crate::scene::file::{GeneratedFile, MeshFile, SceneFile, SourceFile, suggestion};
+use crate::scene::load::Overrides;
+use crate::scene::obj::{ObjOptions, Polygons};
 use crate::scene::part::MeshPart;
 use crate::scene::shapes::{self, Shape};
 use crate::scene::transform::Transform;
@@ -20,14 +23,23 @@ pub(super) fn transforms(file: &SceneFile, faults: &mut Faults<'_>) -> Vec<Trans
     file.meshes.iter().map(|mesh| transform(mesh, faults)).collect()
 }
 
+/// What all meshes of a scene are made with.
+pub(super) struct Making<'a> {
+    /// The folder that paths are relative to.
+    pub(super) base: &'a Path,
+    pub(super) overrides: &'a Overrides,
+    /// Whether normals are transformed like directions.
+    pub(super) naive_normals: bool,
+}
+
 pub(super) fn resolve(
     file: &SceneFile,
-    base: &Path,
+    making: &Making<'_>,
     transforms: Vec<Transform>,
     materials: &mut Materials,
-    naive_normals: bool,
     faults: &mut Faults<'_>,
 ) -> Assembly {
+    let Making { base, overrides, naive_normals } = *making;
     let mut assembly = Assembly::default();
     let mut library = Library::default();
     for (mesh, transform) in file.meshes.iter().zip(transforms) {
@@ -35,6 +47,7 @@ pub(super) fn resolve(
         let normals = vertex_normals::rule(mesh, faults);
         let sides = sides(mesh, faults);
         let shading = shading(mesh, faults);
+        let polygons = polygons(mesh, faults);
         let named = named_material(mesh, file, materials, faults);
         let made;
         let (part, name, source, own) = match &mesh.source {
@@ -46,11 +59,19 @@ pub(super) fn resolve(
             }
             SourceFile::File(written) => {
                 let path = base.join(written.get_ref());
-                let Some(read) = library.read(&path, written, faults) else { continue };
+                let options = ObjOptions { polygons, skip_bad: overrides.skip_bad };
+                let Some(read) = library.read(&path, options, written, faults) else { continue };
                 let own =
                     if named.is_none() { read.numbers(materials).to_vec() } else { Vec::new() };
-                let lines = read.file.part.lines.clone();
-                (&read.file.part, written.get_ref().clone(), Source::File { path, lines }, own)
+                let mut part = &read.file.part;
+                if overrides.skip_bad
+                    && let Some(less) = without_bad_faces(part, &transform, &path, faults)
+                {
+                    made = less;
+                    part = &made;
+                }
+                let lines = part.lines.clone();
+                (part, written.get_ref().clone(), Source::File { path, lines }, own)
             }
         };
         let remade = normals.and_then(|rule| vertex_normals::remake(part, rule, mesh, faults));
@@ -132,6 +153,18 @@ fn sides(mesh: &MeshFile, faults: &mut Faults<'_>) -> Sides {
             Sides::Single
         }
     }
+}
+
+fn polygons(mesh: &MeshFile, faults: &mut Faults<'_>) -> Polygons {
+    let Some(written) = &mesh.polygons else { return Polygons::default() };
+    let word = written.get_ref().as_str();
+    let known = Polygons::ALL.iter().find(|(name, _)| *name == word);
+    if known.is_none() {
+        let names = Polygons::ALL.map(|(name, _)| name);
+        let message = format!("`polygons` must be \"ears\" or \"fan\", not \"{word}\"");
+        faults.at_with_help(&written.span(), message, suggestion(word, &names));
+    }
+    known.map_or_else(Polygons::default, |&(_, polygons)| polygons)
 }
 
 fn shading(mesh: &MeshFile, faults: &mut Faults<'_>) -> Shading {

@@ -1,7 +1,7 @@
 //! H10 to H13 and H17: T-junctions, the edge that contraction cracks, and the needle.
 
-use super::configurations::agree_everywhere;
 use super::{agree_with_golden, assert_covered_once, cover, ids, samples};
+use crate::support::configurations::agree_everywhere;
 use crate::support::golden;
 use crate::support::scenes::{
     T_JUNCTION, T_SLIVER, T_VERTEX, Triangle, single_ray_camera, standard_scene, triangles_of,

@@ -1,7 +1,9 @@
 //! H18: triangles far smaller than pixels, in great number.
 
 use super::cover;
+use crate::support::configurations::{agree_everywhere, assert_same};
 use crate::support::scenes::{Sequence, Triangle, standard_scene};
+use crate::support::sizes;
 use rayon::prelude::*;
 use truecast::accel::{Accelerator, BuildPreset};
 use truecast::cast::cast;
@@ -73,6 +75,9 @@ fn h18_sub_pixel_dust() {
     let answer = cast(&scene, &accelerator, window, Counting::All, &|| ());
     let raster = rasterize(&scene, window, Counting::All, &|| ());
     assert_eq!(answer.cover, raster.cover);
+    if sizes::H18.running() == GRAINS {
+        assert_same(&answer, &agree_everywhere("dust", &scene), "dust");
+    }
     let arbiter = Arbiter::new(&scene);
     let sum: u32 = window
         .pixels()

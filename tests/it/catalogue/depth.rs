@@ -1,9 +1,12 @@
 //! H20 to H25 and H29: copies, common planes, and planes that are as close as numbers can be.
 
-use super::configurations::agree_everywhere;
 use super::{agree_with_golden, cover, ids};
+use crate::support::configurations::agree_everywhere;
 use crate::support::golden;
 use crate::support::scenes::{Sequence, Triangle, rectangle, standard_scene, triangles_of};
+use truecast::raster::{DepthBuffer, DepthFormat, SubpixelBits, rasterize_watertight};
+use truecast::scene::Scene;
+use truecast::visibility::{Counting, VisibilityBuffer};
 
 #[test]
 fn h20_duplicates() {
@@ -106,26 +109,98 @@ fn h25_slanted_one_ulp() {
     assert!(decided > 200 * 2 * SLANTED_PAIRS, "{decided}");
 }
 
-/// The code of a 24-bit depth buffer with the planes n and f, cut off; one step is 0.149 at 500.
-fn d24(z: f64) -> u32 {
-    let (n, f) = (0.1, 1000.0);
-    (f64::from((1 << 24) - 1) * (f * (z - n)) / (z * (f - n))) as u32
+/// Two sheets: their depths, and the depth buffers from 0.1 to 1000 that cannot tell them apart and
+/// those that can. D24 counts in steps of D·16 777 215; near 1, f32 has nearly the same steps.
+const SHEETS: [(f32, f32, &[DepthFormat], &[DepthFormat]); 5] = {
+    use DepthFormat::{D16, D24, D32};
+    [
+        // 500.1 is step …537.78, 500.2 is …538.45: both …538.
+        (500.1, 500.2, &[D16, D24, D32], &[]),
+        // 500 is …537.11 and 500.05 is …537.45: both …537.
+        (500.0, 500.05, &[D16, D24, D32], &[]),
+        // The catalogue's pair: closer than a step of 0.149, but on both sides of …537.5.
+        (500.0, 500.1, &[D16], &[D24, D32]),
+        // Further apart than a step, far closer than D16's of 38.1.
+        (500.0, 500.2, &[D16], &[D24, D32]),
+        (500.0, 501.0, &[D16], &[D24, D32]),
+    ]
+};
+
+fn depth_buffered(scene: &Scene, format: DepthFormat) -> VisibilityBuffer {
+    let buffer = DepthBuffer::new(format, DepthBuffer::STANDARD_NEAR, DepthBuffer::STANDARD_FAR);
+    let window = scene.camera.resolution().window();
+    let bits = SubpixelBits::default();
+    rasterize_watertight(scene, window, bits, buffer, Counting::Nearest, &|| ())
 }
 
-/// Two sheets a tenth apart at 500: one code of a 24-bit depth buffer, and no doubt here.
+/// Two sheets at 500 that are closer than a depth buffer's steps: its ties, and no doubt here.
 #[test]
 fn h29_d24_tie() {
-    let [near, far] = [500.0_f32, 500.1];
-    assert_eq!(d24(f64::from(near)), d24(f64::from(far)), "a depth buffer cannot tell");
     let sheet = |z: f32| rectangle([-900.0, -900.0], [900.0, 900.0], z);
-    for (triangles, nearer) in
-        [([sheet(far), sheet(near)].concat(), 1), ([sheet(near), sheet(far)].concat(), 0)]
-    {
-        let buffer = agree_everywhere("D24", &standard_scene(&triangles));
-        for visible in &buffer.visible {
-            let visible = visible.unwrap();
-            assert_eq!(visible.triangle.get() / 2, nearer);
-            assert!(visible.t_lo <= 62.5 && 62.5 <= visible.t_hi, "{visible:?}");
+    for (near, far, ties, orders) in SHEETS {
+        for (triangles, nearer) in
+            [([sheet(far), sheet(near)].concat(), 1), ([sheet(near), sheet(far)].concat(), 0)]
+        {
+            let scene = standard_scene(&triangles);
+            let buffer = agree_everywhere("sheets", &scene);
+            let t = f64::from(near) / 8.0;
+            for visible in &buffer.visible {
+                let visible = visible.unwrap();
+                assert_eq!(visible.triangle.get() / 2, nearer);
+                assert!(visible.t_lo <= t && t <= visible.t_hi, "{visible:?}");
+            }
+            // A depth buffer that cannot tell shows the first sheet and says so.
+            for &format in ties {
+                for visible in depth_buffered(&scene, format).visible {
+                    let visible = visible.unwrap();
+                    let said = (visible.triangle.get() / 2, visible.tie);
+                    assert_eq!(said, (0, true), "{near} and {far} in {format:?}");
+                }
+            }
+            for &format in orders {
+                for visible in depth_buffered(&scene, format).visible {
+                    let visible = visible.unwrap();
+                    let said = (visible.triangle.get() / 2, visible.tie);
+                    assert_eq!(said, (nearer, false), "{near} and {far} in {format:?}");
+                }
+            }
+        }
+    }
+}
+
+/// Pairs of sheets a given distance apart, swept over many steps of the depth buffer: ties come as
+/// often as two places share a step, and never between places more than a step apart.
+#[test]
+fn h29_d24_and_d16_ties_by_distance() {
+    const PAIRS: u32 = 60;
+    let step = |format: DepthFormat| {
+        let (near, far) = (DepthBuffer::STANDARD_NEAR, DepthBuffer::STANDARD_FAR);
+        500.0 * 500.0 * (far - near) / (far * near) / 2.0_f64.powi(format.bits() as i32)
+    };
+    assert!((step(DepthFormat::D24) - 0.149).abs() < 1e-3);
+    assert!((step(DepthFormat::D16) - 38.1).abs() < 0.1);
+    for format in [DepthFormat::D24, DepthFormat::D16] {
+        for (part, expected) in [(0.25, 0.75), (0.5, 0.5), (1.5, 0.0)] {
+            let mut ties = 0;
+            for pair in 0..PAIRS {
+                // Twenty steps on either side of 500, where a step changes by less than a tenth
+                // for D24; for D16 within one step.
+                let offset = match format {
+                    DepthFormat::D16 => f64::from(pair) / f64::from(PAIRS) - 0.5,
+                    _ => f64::from(pair) * 0.37,
+                };
+                let near = 500.0 + offset * step(format);
+                let far = near + part * step(format);
+                let sheets = [near, far]
+                    .map(|z| rectangle([-900.0, -900.0], [900.0, 900.0], z as f32))
+                    .concat();
+                let seen = depth_buffered(&standard_scene(&sheets), format).visible[144].unwrap();
+                ties += u32::from(seen.tie);
+                assert!(seen.triangle.get() < 2, "{format:?}: {near} before {far}");
+            }
+            let share = f64::from(ties) / f64::from(PAIRS);
+            // Sixty places, evenly spread over the step: the share is known to a tenth or so.
+            assert!((share - expected).abs() < 0.12, "{format:?}, {part} of a step: {share}");
         }
     }
 }

@@ -1,11 +1,11 @@
 //! H40 to H4B: triangles through, behind and in the planes of the eye, eyes inside and beside
 //! boxes, and what is very near. There is no near plane, and t = 0 is no hit.
 
-use super::configurations::agree_everywhere;
 use super::{
     agree_with_golden, assert_covered_once, assert_same_picture, cover, ids, one_signed_count,
     samples,
 };
+use crate::support::configurations::agree_everywhere;
 use crate::support::golden;
 use crate::support::scenes::{Triangle, rectangle, standard_camera, standard_scene, triangles_of};
 use truecast::scene::Scene;

@@ -3,6 +3,7 @@
 //! Cases D.1 to D.3 are tests of this folder; those of D.4 to D.6, traversal, scale and
 //! transformations, belong to `scale`.
 
+use crate::support::sizes::REDUCED;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -53,6 +54,26 @@ fn every_case_is_here() {
         let missing: Vec<&str> =
             section.cases.split(' ').filter(|case| !found.contains(*case)).collect();
         assert!(missing.is_empty(), "no test is named after {missing:?}");
+    }
+}
+
+/// The table of all cases, with the size at which they run: read it with `--nocapture`.
+#[test]
+#[expect(clippy::print_stdout, reason = "the table is what this test is run for")]
+fn sizes_of_all_cases() {
+    let all: Vec<&str> = SECTIONS.iter().flat_map(|section| section.cases.split(' ')).collect();
+    let listed = REDUCED.map(|size| size.case);
+    assert!(listed.is_sorted() && listed.iter().all(|case| all.contains(case)), "{listed:?}");
+    println!("{:<5} {:<36} {:>9} {:>9}", "case", "size", "runs", "full");
+    for case in all {
+        match REDUCED.iter().find(|size| size.case == case) {
+            None => println!("{case:<5} {:<36} {:>9} {:>9}", "as in the catalogue", "full", "full"),
+            Some(size) => {
+                let (runs, full) = (size.running(), size.full());
+                assert!(runs <= full, "{case}");
+                println!("{case:<5} {:<36} {runs:>9} {full:>9}", size.unit);
+            }
+        }
     }
 }
 

@@ -1,7 +1,7 @@
 //! H26 to H28, H30 and H31: planes that cross on samples, and what the order of a file may do.
 
-use super::configurations::agree_everywhere;
 use super::{agree_with_golden, cover, ids, samples};
+use crate::support::configurations::agree_everywhere;
 use crate::support::golden;
 use crate::support::scenes::{Sequence, Triangle, grid_camera, standard_scene, triangles_of};
 use truecast::accel::{Accelerator, BuildPreset};

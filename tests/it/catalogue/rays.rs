@@ -1,10 +1,11 @@
 //! H14 to H16: closed meshes, and rays aimed at their vertices and edges. Random rays test
 //! nothing: no kernel misses them.
 
-use super::configurations::{agree_everywhere, agree_once};
 use super::{assert_covered_once, one_signed_count};
 use crate::support::closed::{aimed_shell, contains, integer_chaos, shell_camera, sphere};
+use crate::support::configurations::{agree_everywhere, agree_once};
 use crate::support::scenes::{Sequence, Triangle, single_ray, standard_camera};
+use crate::support::sizes;
 use truecast::accel::{Accelerator, BuildPreset};
 use truecast::cast::cast;
 use truecast::pixel::Resolution;
@@ -13,7 +14,8 @@ use truecast::scene::Scene;
 use truecast::scene::camera::PinholeCamera;
 use truecast::visibility::Counting;
 
-/// Closed meshes; of these every tenth goes through all configurations, the others through one.
+/// Closed meshes; of these so many as `sizes::H14` says go through all configurations, evenly
+/// spread, the others through one.
 const CHAOTIC_MESHES: usize = 250;
 
 /// Whether the sample along `direction` meets an exact zero: some W of a triangle with V ≠ 0 is 0.
@@ -51,7 +53,8 @@ fn h14_integer_chaos() {
         let camera = PinholeCamera::exact(frame, eye, d0, dx, dy).unwrap();
         let scene = Scene::from_triangles(camera, &triangles);
         let name = format!("chaos {seed} from {eye:?}");
-        let agree = if meshes % 10 == 0 { agree_everywhere } else { agree_once };
+        let every = CHAOTIC_MESHES / sizes::H14.running();
+        let agree = if meshes % every == 0 { agree_everywhere } else { agree_once };
         let winding = one_signed_count(&name, &agree(&name, &scene));
         // The sample of pixel (i, j) looks along (i − 4, j − 4, 2).
         on_edges +=
@@ -117,10 +120,6 @@ fn aim(
     }
 }
 
-/// Rays to vertices of a large sphere, at each of the two centres. The catalogue's number is
-/// 300 000; this many fit a test.
-const VERTEX_RAYS: usize = 30_000;
-
 /// Steps of half a side of the shell whose every sample goes through all configurations, and of
 /// the one that goes through a single one.
 const SHELLS: [i32; 2] = [12, 48];
@@ -130,7 +129,7 @@ const SHELLS: [i32; 2] = [12, 48];
 #[test]
 fn h15_sphere_to_vertices() {
     for centre in CENTRES {
-        aim([100, 200], centre, Target::Vertex, VERTEX_RAYS, 300);
+        aim([100, 200], centre, Target::Vertex, sizes::H15.running(), 300);
     }
     for (half, agree) in SHELLS.into_iter().zip([agree_everywhere, agree_once]) {
         let mut scene = Scene::from_triangles(shell_camera(half, 0), &aimed_shell(half));
@@ -151,6 +150,7 @@ const EDGE_RAYS: usize = 20_000;
 #[test]
 fn h16_to_edge_midpoints() {
     for centre in CENTRES {
-        aim([16, 32], centre, Target::EdgeMiddle, EDGE_RAYS, 20);
+        let raster_every = EDGE_RAYS / sizes::H16.running();
+        aim([16, 32], centre, Target::EdgeMiddle, EDGE_RAYS, raster_every);
     }
 }

@@ -1,8 +1,8 @@
 //! H01 to H09: samples exactly on vertices and edges, ways of writing the same triangles, and the
 //! two zeros.
 
-use super::configurations::agree_everywhere;
 use super::{agree_with_golden, assert_covered_once, assert_same_picture, cover, ids, samples};
+use crate::support::configurations::agree_everywhere;
 use crate::support::golden;
 use crate::support::scenes::{
     Triangle, fan, grid_camera, pixel_grid, rectangle, standard_camera, standard_scene,

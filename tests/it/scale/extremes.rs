@@ -1,14 +1,13 @@
 //! H70–H7A: scales, translations and the ends of the range of numbers.
 
-use super::{
-    Breadth, FULL, NARROW, agreed, agreed_within, assert_covered_once, cover, ids,
-    times_power_of_two, triangles_of,
-};
+use super::{assert_covered_once, cover, ids, times_power_of_two, triangles_of};
+use crate::support::configurations::{Breadth, FULL, NARROW, agreed, agreed_within};
 use crate::support::golden;
 use crate::support::rays::Random;
 use crate::support::scenes::{
     Triangle, rectangle, scaled, single_ray, standard_camera, standard_scene,
 };
+use crate::support::sizes;
 use dashu_ratio::RBig;
 use truecast::accel::BuildPreset;
 use truecast::exact::Arbiter;
@@ -254,12 +253,8 @@ fn h7a_mixed() {
     };
     let triangles: Vec<Triangle> =
         (0..10_000).map(|_| [0; 3].map(|_| [0; 3].map(|_| coordinate()))).collect();
-    let breadth = Breadth {
-        presets: &[BuildPreset::Medium],
-        linear: false,
-        tile_sides: &[32],
-        audited_pixels: 6,
-    };
+    let configurations = if sizes::is_full() { FULL } else { NARROW };
+    let breadth = Breadth { audited_pixels: sizes::H7A.running(), ..configurations };
     let buffer = agreed_within(&standard_scene(&triangles), &breadth, "mixed");
     assert!(buffer.covered_pixels() > 200, "{}", buffer.covered_pixels());
     assert!((0..289).any(|index| cover(&buffer, index).crossed > 100));

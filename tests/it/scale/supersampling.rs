@@ -2,7 +2,7 @@
 //! samples changes any plane but colour and alpha.
 
 use super::metamorphic::scenes_with_ties;
-use super::{POOLS, assert_same};
+use crate::support::configurations::{POOLS, assert_same};
 use crate::support::scenes::{rectangle, standard_scene};
 use truecast::accel::BuildPreset;
 use truecast::film::{Film, Plane, Samples};

@@ -51,6 +51,15 @@ fn meshes() {
             "`sides` must be \"single\" or \"double\", not \"both\"",
         ],
     );
+    let errors = refused(
+        "[[mesh]]\npolygons = ▸\"fans\"\nfile = ▸\"no.ply\"\n",
+        &[
+            "`polygons` must be \"ears\" or \"fan\", not \"fans\"",
+            "ply files are not read by this version",
+        ],
+    );
+    assert_eq!(help(&errors), "did you mean `fan`?");
+    mesh_refused("▸polygons = \"fan\"\n", &["`polygons` belongs to a mesh with `file`"]);
     mesh_refused("shading = ▸\"phon\"\n", &["there is no shading \"phon\""]);
     mesh_refused(
         "matrix = ▸[[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 1, 1]]\nscale = ▸1\ntranslate = ▸[0, 0, 0]\n",

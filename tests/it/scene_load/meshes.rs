@@ -93,3 +93,34 @@ fn materials_of_obj_files() {
     assert_eq!((error.place.file.as_path(), error.place.line), (path.as_path(), 5));
     assert_eq!(error.help.as_deref(), Some("the mesh stands at far.toml:15:1"));
 }
+
+/// A concave polygon, its reflex corner opposite the first: cut by ears it is covered once, as a
+/// fan twice beside it. One file may be read in both ways in one scene.
+#[test]
+fn polygons_by_ears_or_as_a_fan() {
+    let folder = tempfile::tempdir().unwrap();
+    let obj = "v 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\nv 3 4 0\nf 2 3 4 1\nf 1 2 5 4\nf 1 2 3\n";
+    std::fs::write(folder.path().join("a.obj"), obj).unwrap();
+    let mesh = |keys: &str| format!("[[mesh]]\nfile = \"a.obj\"\n{keys}");
+    let triangles = |text: &str| -> Vec<[[f32; 3]; 3]> {
+        let scene = load_in(folder.path(), &format!("{HEAD}{text}"));
+        scene.mesh.ids().map(|id| scene.mesh.triangle(id)).collect()
+    };
+    let ears = triangles(&mesh(""));
+    assert_eq!(triangles(&mesh("polygons = \"ears\"\n")), ears);
+    let fan = triangles(&mesh("polygons = \"fan\"\n"));
+    let [a, b, c, d] = [[0.0; 3], [4.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 4.0, 0.0]];
+    assert_eq!(fan[..2], [[b, c, d], [b, d, a]]);
+    // Convex polygons and triangles are the same; the dart is not.
+    assert_ne!(ears[..2], fan[..2]);
+    assert_eq!(ears[2..], fan[2..]);
+    let twice_the_area = |triangles: &[[[f32; 3]; 3]]| -> f32 {
+        let area = |[p, q, r]: &[[f32; 3]; 3]| {
+            (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
+        };
+        triangles.iter().map(|t| area(t).abs()).sum()
+    };
+    assert_eq!((twice_the_area(&ears[..2]), twice_the_area(&fan[..2])), (8.0, 24.0));
+    let both = triangles(&(mesh("polygons = \"fan\"\n") + &mesh("")));
+    assert_eq!(both, [fan, ears].concat());
+}

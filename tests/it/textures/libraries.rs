@@ -2,7 +2,7 @@
 
 use super::*;
 use std::io;
-use truecast::scene::obj::{ObjFile, parse};
+use truecast::scene::obj::{ObjFile, ObjOptions, parse};
 use truecast::scene::texture::TextureRequest;
 
 const TRIANGLE: &str = "mtllib m.mtl\nusemtl a\nv 0 0 0\nv 1 0 0\nv 0 1 0\n\
@@ -15,7 +15,7 @@ fn read(library: &str) -> Result<ObjFile, String> {
         true => Ok(format!("newmtl a\n{library}\n").into_bytes()),
         false => Err(io::ErrorKind::NotFound.into()),
     };
-    parse(TRIANGLE.as_bytes(), Path::new("folder/t.obj"), &open)
+    parse(TRIANGLE.as_bytes(), Path::new("folder/t.obj"), ObjOptions::default(), &open)
         .map_err(|errors| errors.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n"))
 }
 
