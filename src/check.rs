@@ -15,6 +15,7 @@ pub mod tolerance;
 
 pub use blame::{Blame, Judged, visible_from, visible_of};
 pub use compare::{Answered, Difference, Kind};
+pub use expected::exact_terms;
 
 use crate::accel::BuildPreset;
 use crate::exact::Arbiter;

@@ -10,6 +10,7 @@ mod develop;
 pub mod expose;
 mod planes;
 mod progress;
+pub mod shadows;
 mod subsamples;
 pub mod visible;
 

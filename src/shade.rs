@@ -27,7 +27,7 @@ mod weights;
 
 pub use calls::{Call, explain};
 pub use effects::Effects;
-pub use kernel::Occlusion;
+pub use kernel::{Asker, Occlusion};
 pub use surface::{SurfacePoint, surface_point};
 pub use terms::{LightTerm, Outcome, Terms};
 pub use watch::{Evaluations, Notes};
@@ -71,13 +71,14 @@ pub fn shade(
     Shaded { radiance, notes }
 }
 
-/// As [`shade`], with the shadows of the lights that cast some: `occlusion` is asked whether a
-/// light is hidden, from any thread, and only where the light would reach the surface.
-pub fn shade_with_shadows(
-    scene: &Scene,
+/// As [`shade`], with the shadows of the lights that cast some: `occlusion` makes an
+/// asker for each row, which is asked whether a light is hidden only where the light would reach
+/// the surface.
+pub fn shade_with_shadows<'a>(
+    scene: &'a Scene,
     buffer: &VisibilityBuffer,
     effects: Effects,
-    occlusion: Occlusion<'_>,
+    occlusion: Occlusion<'a>,
     done: &(dyn Fn() + Sync),
 ) -> Shaded {
     let occlusion = Some(occlusion);
@@ -95,11 +96,11 @@ pub fn count_evaluations(
 }
 
 /// Shades all rows, each with a watcher of its own; the watchers are added up, in any order.
-fn shade_rows<W: Watch + Default + Copy + Send>(
-    scene: &Scene,
+fn shade_rows<'a, W: Watch + Default + Copy + Send>(
+    scene: &'a Scene,
     buffer: &VisibilityBuffer,
     effects: Effects,
-    occlusion: Option<Occlusion<'_>>,
+    occlusion: Option<Occlusion<'a>>,
     done: &(dyn Fn() + Sync),
     add: fn(&mut W, W),
 ) -> (Vec<LinearRgb>, W) {
@@ -147,21 +148,21 @@ pub fn shade_point(scene: &Scene, point: &SurfacePoint, material: &Material) -> 
 }
 
 /// The radiance of one visible pixel, as [`shade_with_shadows`] computes it.
-pub fn shade_visible(
-    scene: &Scene,
+pub fn shade_visible<'a>(
+    scene: &'a Scene,
     pixel: Pixel,
     visible: &Visible,
-    occlusion: Option<Occlusion<'_>>,
+    occlusion: Option<Occlusion<'a>>,
 ) -> LinearRgb {
     terms(scene, pixel, visible, occlusion).sum()
 }
 
 /// Every light's term at a visible pixel; their sum is the shaded pixel bit for bit.
-pub fn terms(
-    scene: &Scene,
+pub fn terms<'a>(
+    scene: &'a Scene,
     pixel: Pixel,
     visible: &Visible,
-    occlusion: Option<Occlusion<'_>>,
+    occlusion: Option<Occlusion<'a>>,
 ) -> Terms {
     const ALL: u8 = KernelEffects::ALL;
     let (surface, _) = surface_point(scene, pixel, visible);
@@ -169,7 +170,8 @@ pub fn terms(
     let (_, material) = scene.material_of(visible.triangle);
     let frame = Frame::new(scene, Effects::ALL, occlusion);
     let coefficients = coefficients::at_pixel(&frame, pixel, visible, material, &mut Nobody);
-    let is_hidden = |light| frame.is_hidden(pixel, visible, light);
+    let asker = frame.asker();
+    let is_hidden = |light| kernel::is_hidden(&asker, pixel, visible, light);
     let lights_at = |geometry: Option<&Geometry>| {
         let mut lights = vec![LightTerm::DARK; scene.lights.len()];
         let lighting = Lighting { reaches: &[], is_hidden: &is_hidden };

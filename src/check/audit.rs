@@ -7,12 +7,15 @@
 mod edge_distance;
 
 use super::blame::{Blame, Judged, visibility_error};
-use super::compare::{Answered, Difference, Kind, layers_differ};
+use super::compare::{Answered, Difference, Kind, largest_exponent, layers_differ};
 use super::expected;
+use super::tolerance::compare_radiance;
+use crate::color::LinearRgb;
 use crate::exact::Arbiter;
 use crate::pixel::Pixel;
 use crate::render::Progress;
 use crate::scene::Scene;
+use crate::shade::Effects;
 use crate::visibility::VisibilityBuffer;
 use edge_distance::edge_distance;
 use rayon::prelude::*;
@@ -89,14 +92,24 @@ pub(super) fn audit(
     progress: &dyn Progress,
 ) -> Vec<Judged> {
     progress.begin("audit", sample.len());
+    // Both paths are shaded with the same shadows, so only the arbiter's own can tell.
+    let exposures = match Effects::of(scene).has(Effects::SHADOWS) {
+        true => expected::exposures(scene, arbiter, sample),
+        false => Vec::new(),
+    };
     sample
         .par_iter()
-        .filter_map(|&pixel| {
+        .enumerate()
+        .filter_map(|(number, &pixel)| {
             let exact = arbiter.answer(pixel);
             progress.step();
             let errors = [0, 1].map(|i| {
                 visibility_error(&answers[i], pixel, &exact)
                     .or_else(|| layers_error(scene, arbiter, &answers[i], pixel))
+                    .or_else(|| {
+                        let (radiance, _) = *exposures.get(number)?;
+                        radiance_error(scene, &answers[i], pixel, radiance)
+                    })
             });
             let kind = errors[0].or(errors[1])?;
             Some(Judged {
@@ -123,6 +136,18 @@ fn layers_error(
         false => expected::layers(scene, arbiter, pixel),
     };
     layers_differ(found, &exact).then_some(Kind::Layers)
+}
+
+/// Whether an answer's radiance is not the exact one.
+fn radiance_error(
+    scene: &Scene,
+    answered: &Answered,
+    pixel: Pixel,
+    exact: LinearRgb,
+) -> Option<Kind> {
+    let index = answered.buffer.window.index(pixel);
+    let ns = largest_exponent(scene, answered, index);
+    (!compare_radiance(answered.radiance[index], exact, ns).1).then_some(Kind::Radiance)
 }
 
 /// Steele, Lea and Flood, "Fast splittable pseudorandom number generators" (2014).

@@ -3,11 +3,12 @@
 
 use super::blame::visible_from;
 use crate::color::LinearRgb;
-use crate::exact::Arbiter;
+use crate::exact::{Arbiter, Shadows};
 use crate::pixel::Pixel;
 use crate::render::expose::Blend;
+use crate::render::shadows::light_point;
 use crate::scene::Scene;
-use crate::shade;
+use crate::shade::{self, Asker, Terms, terms};
 use crate::visibility::Visible;
 use rayon::prelude::*;
 
@@ -34,9 +35,10 @@ pub(super) fn exposures(
     let mut shifted = scene.clone();
     for offset in scene.samples.offsets() {
         shifted.camera = scene.camera.shifted(offset);
+        let shadows = shadows(&shifted);
         sums.par_iter_mut().zip(pixels).for_each(|((color, alpha), &pixel)| {
             let seen = seen(scene, arbiter, pixel, offset);
-            let (more, more_alpha) = exposure(&shifted, pixel, &seen);
+            let (more, more_alpha) = exposure(&shifted, &shadows, pixel, &seen);
             *color = std::array::from_fn(|k| color[k] + more[k]);
             *alpha += more_alpha;
         });
@@ -57,8 +59,36 @@ fn seen(scene: &Scene, arbiter: &Arbiter<'_>, pixel: Pixel, steps: [i32; 2]) -> 
     surfaces
 }
 
-fn exposure(scene: &Scene, pixel: Pixel, seen: &[Visible]) -> (LinearRgb, f64) {
-    let radiance = |surface: &Visible| shade::shade_visible(scene, pixel, surface, None);
+/// The arbiter's shadows of each light; none of lights that cast none.
+fn shadows(scene: &Scene) -> Vec<Option<Shadows<'_>>> {
+    let lights = scene.lights.iter();
+    lights.map(|light| light_point(light).map(|light| Shadows::new(scene, light))).collect()
+}
+
+/// Every light's term at a visible pixel, with the arbiter's shadows.
+pub fn exact_terms(scene: &Scene, pixel: Pixel, visible: &Visible) -> Terms {
+    let shadows = shadows(scene);
+    terms(scene, pixel, visible, Some(&|| asker(scene, &shadows)))
+}
+
+fn asker<'a>(scene: &'a Scene, shadows: &'a [Option<Shadows<'a>>]) -> Asker<'a> {
+    Box::new(|pixel, visible, light| {
+        shadows[light].as_ref().is_some_and(|shadows| {
+            let opaque = |id| scene.is_opaque(id);
+            !shadows.occluders(pixel, visible.triangle, opaque).is_empty()
+        })
+    })
+}
+
+fn exposure(
+    scene: &Scene,
+    shadows: &[Option<Shadows<'_>>],
+    pixel: Pixel,
+    seen: &[Visible],
+) -> (LinearRgb, f64) {
+    let radiance = |surface: &Visible| {
+        shade::shade_visible(scene, pixel, surface, Some(&|| asker(scene, shadows)))
+    };
     match seen {
         [] => (scene.background, 0.0),
         [nearest] if scene.is_opaque(nearest.triangle) => (radiance(nearest), 1.0),

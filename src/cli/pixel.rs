@@ -5,12 +5,12 @@ use super::arguments::PixelArguments;
 use super::failure::Failure;
 use super::{OK, output};
 use serde_json::{Value, json};
-use truecast::check::visible_of;
+use truecast::check::{exact_terms, visible_of};
 use truecast::exact::{Answer, Arbiter, Candidate};
 use truecast::pixel::Pixel;
 use truecast::render::expose::Blend;
 use truecast::scene::{Overrides, Scene};
-use truecast::shade::{Terms, terms};
+use truecast::shade::Terms;
 use truecast::visibility::Visible;
 
 /// Everything that is said about a pixel.
@@ -58,7 +58,7 @@ fn explain(scene: &Scene, pixel: Pixel) -> Explained {
     let arbiter = Arbiter::new(scene);
     let answer = arbiter.answer(pixel);
     let visible =
-        visible_of(&answer).0.map(|visible| (visible, terms(scene, pixel, &visible, None)));
+        visible_of(&answer).0.map(|visible| (visible, exact_terms(scene, pixel, &visible)));
     let [x, y] = pixel.sample();
     let camera = &scene.camera;
     // Exact: the camera is on its lattice.

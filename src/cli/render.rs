@@ -45,7 +45,7 @@ pub(super) fn run(arguments: &RenderArguments, writing: &Writing) -> Result<u8, 
     if !arguments.quiet {
         output::print_warnings(&scene.warnings);
     }
-    refuse_opacity(accuracy, &scene)?;
+    refuse_effects(accuracy, &scene)?;
     let options = RenderOptions {
         path: match arguments.path {
             PathWord::Cast => VisibilityPath::Cast,
@@ -130,16 +130,24 @@ fn accuracy(arguments: &RenderArguments) -> Result<Accuracy, Failure> {
     })
 }
 
-/// The watertight rasterizer has no order behind the nearest surface: it draws nothing see-through.
-fn refuse_opacity(accuracy: Accuracy, scene: &Scene) -> Result<(), Failure> {
-    if accuracy == Accuracy::Exact || !Effects::of(scene).has(Effects::OPACITY) {
+/// The watertight rasterizer has no order behind the nearest surface and no exact surface point: it
+/// draws nothing see-through and no shadows.
+fn refuse_effects(accuracy: Accuracy, scene: &Scene) -> Result<(), Failure> {
+    if accuracy == Accuracy::Exact {
         return Ok(());
     }
-    Err(Failure::usage(format!(
-        "--accuracy {} finds only the nearest surface, and this scene has materials with `opacity` \
-         below 1: use --accuracy exact",
-        accuracy.name()
-    )))
+    let effects = Effects::of(scene);
+    let refused = [
+        (Effects::OPACITY, "this scene has materials with `opacity` below 1"),
+        (Effects::SHADOWS, "this scene has lights that cast shadows"),
+    ];
+    match refused.iter().find(|(effect, _)| effects.has(*effect)) {
+        None => Ok(()),
+        Some((_, why)) => Err(Failure::usage(format!(
+            "--accuracy {} finds only the nearest surface, and {why}: use --accuracy exact",
+            accuracy.name()
+        ))),
+    }
 }
 
 /// The output files, each with its format, refused early when they cannot be written.

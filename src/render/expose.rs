@@ -8,12 +8,14 @@
 
 use super::answerer::Answerer;
 use super::progress::Progress;
+use super::shadows::shade_shadowed;
 use super::subsamples::for_each_subsample;
+use crate::accel::{Accelerator, BuildPreset};
 use crate::color::LinearRgb;
 use crate::mesh::TriangleId;
 use crate::pixel::Window;
 use crate::scene::Scene;
-use crate::shade::{Effects, Notes, shade};
+use crate::shade::{Effects, Notes};
 use crate::visibility::{Layers, LevelCounts, VisibilityBuffer, Visible};
 
 /// What a film sees at each pixel of a window, row by row.
@@ -38,9 +40,21 @@ pub fn expose(
     effects: Effects,
     progress: &dyn Progress,
 ) -> Exposure {
+    // Shadows need a BVH, whichever path found what is visible.
+    let built;
+    let occluders = match answerer {
+        Answerer::Cast(accelerator) => Some(accelerator),
+        Answerer::Raster if effects.has(Effects::SHADOWS) => {
+            progress.begin("build", 1);
+            built = Accelerator::build(&scene.mesh, BuildPreset::Medium);
+            progress.step();
+            Some(&built)
+        }
+        Answerer::Raster | Answerer::Watertight(..) => None,
+    };
     if !effects.has(Effects::SUPERSAMPLING) {
         progress.begin("shade", nearest.window.height() as usize);
-        return expose_sample(scene, nearest, layers, effects, &|| progress.step());
+        return expose_sample(scene, occluders, (nearest, layers), effects, &|| progress.step());
     }
     let mut sum = Sum::new(nearest.window);
     let stage = ("supersample", progress);
@@ -50,7 +64,8 @@ pub fn expose(
             true => answerer.layers(shifted, answer, &|| ()),
             false => Layers::none(answer.window),
         };
-        sum.add(answer.window, expose_sample(shifted, answer, &layers, effects, &|| ()));
+        let exposed = expose_sample(shifted, occluders, (answer, &layers), effects, &|| ());
+        sum.add(answer.window, exposed);
     });
     sum.mean(f64::from(scene.samples.count()))
 }
@@ -93,17 +108,17 @@ impl Sum {
 /// what lies behind them.
 fn expose_sample(
     scene: &Scene,
-    nearest: &VisibilityBuffer,
-    layers: &Layers,
+    occluders: Option<&Accelerator>,
+    (nearest, layers): (&VisibilityBuffer, &Layers),
     effects: Effects,
     done: &(dyn Fn() + Sync),
 ) -> Exposure {
-    let shaded = shade(scene, nearest, effects, done);
+    let shaded = shade_shadowed(scene, nearest, effects, occluders, done);
     let alpha = nearest.visible.iter().map(|visible| f64::from(u8::from(visible.is_some())));
     let mut exposure =
         Exposure { radiance: shaded.radiance, alpha: alpha.collect(), notes: shaded.notes };
     if effects.has(Effects::OPACITY) {
-        blend(scene, nearest, layers, effects, &mut exposure);
+        blend(scene, occluders, (nearest, layers), effects, &mut exposure);
     }
     exposure
 }
@@ -111,8 +126,8 @@ fn expose_sample(
 /// Replaces the radiance and alpha of every pixel whose nearest surface is see-through.
 fn blend(
     scene: &Scene,
-    nearest: &VisibilityBuffer,
-    layers: &Layers,
+    occluders: Option<&Accelerator>,
+    (nearest, layers): (&VisibilityBuffer, &Layers),
     effects: Effects,
     exposure: &mut Exposure,
 ) {
@@ -127,7 +142,7 @@ fn blend(
     // Peel: the k-th surfaces behind the nearest, all at once.
     for k in 0..layers.most() {
         let Some(peel) = peel(scene, layers, k) else { break };
-        let shaded = shade(scene, &peel, effects, &|| ());
+        let shaded = shade_shadowed(scene, &peel, effects, occluders, &|| ());
         exposure.notes.add(shaded.notes);
         for (index, blend) in &mut blends {
             if let Some(visible) = layers.of(*index).get(k) {

@@ -18,10 +18,17 @@ use crate::pixel::{Pixel, Window};
 use crate::scene::Scene;
 use crate::scene::switches::Rules;
 use crate::visibility::Visible;
+use std::cell::RefCell;
 
-/// Whether an opaque surface hides the light at a position of the scene's list from the point of a
-/// triangle that is visible at a pixel.
-pub type Occlusion<'a> = &'a (dyn Fn(Pixel, &Visible, usize) -> bool + Sync);
+/// Says whether an opaque surface hides the light at a position of the scene's list from the point
+/// of a triangle that is visible at a pixel.
+pub type Asker<'a> = Box<dyn FnMut(Pixel, &Visible, usize) -> bool + 'a>;
+
+/// Makes an [`Asker`] for each row that is shaded, on the thread that shades it.
+pub type Occlusion<'a> = &'a (dyn Fn() -> Asker<'a> + Sync);
+
+/// The asker of a row, if anything casts shadows.
+pub(super) type RowAsker<'a> = Option<RefCell<Asker<'a>>>;
 
 /// What is the same at every pixel.
 pub(super) struct Frame<'a> {
@@ -76,9 +83,9 @@ impl<'a> Frame<'a> {
         }
     }
 
-    /// Whether a light is hidden from the surface at a pixel.
-    pub(super) fn is_hidden(&self, pixel: Pixel, visible: &Visible, light: usize) -> bool {
-        self.occlusion.is_some_and(|occlusion| occlusion(pixel, visible, light))
+    /// Whoever answers for shadows while a row is shaded.
+    pub(super) fn asker(&self) -> RowAsker<'a> {
+        self.occlusion.filter(|_| self.shadowed).map(|make| RefCell::new(make()))
     }
 }
 
@@ -118,6 +125,7 @@ fn shade_row<const E: u8, W: Watch>(
     watch: &mut W,
 ) {
     let mut memo = Memo::default();
+    let asker = frame.asker();
     let mut reaches = vec![true; if frame.selects_lights { frame.lights.len() } else { 0 }];
     let runs = visible.chunks(RUN).zip(radiance.chunks_mut(RUN));
     for (first, (visible, radiance)) in (window.x0()..).step_by(RUN).zip(runs) {
@@ -128,7 +136,7 @@ fn shade_row<const E: u8, W: Watch>(
             *out = match visible {
                 Some(visible) => {
                     let pixel = Pixel { x, y };
-                    shade_pixel::<E, W>(frame, pixel, visible, &reaches, &mut memo, watch)
+                    shade_pixel::<E, W>(frame, pixel, visible, (&reaches, &asker), &mut memo, watch)
                 }
                 None => frame.scene.background,
             };
@@ -137,6 +145,16 @@ fn shade_row<const E: u8, W: Watch>(
             }
         }
     }
+}
+
+/// Whether a light is hidden from the surface at a pixel.
+pub(super) fn is_hidden(
+    asker: &RowAsker<'_>,
+    pixel: Pixel,
+    visible: &Visible,
+    light: usize,
+) -> bool {
+    asker.as_ref().is_some_and(|asker| (*asker.borrow_mut())(pixel, visible, light))
 }
 
 /// A box around every point of a run at which the equation may be evaluated. Colours that are
@@ -164,7 +182,7 @@ fn shade_pixel<const E: u8, W: Watch>(
     frame: &Frame<'_>,
     pixel: Pixel,
     visible: &Visible,
-    reaches: &[bool],
+    (reaches, asker): (&[bool], &RowAsker<'_>),
     memo: &mut Memo,
     watch: &mut W,
 ) -> LinearRgb {
@@ -173,7 +191,7 @@ fn shade_pixel<const E: u8, W: Watch>(
     let (_, material) = scene.material_of(visible.triangle);
     let coefficients = coefficients::at_pixel(frame, pixel, visible, material, watch);
     let depends_on_pixel = frame.shadowed || coefficients.textured;
-    let is_hidden = |light| frame.is_hidden(pixel, visible, light);
+    let is_hidden = |light| is_hidden(asker, pixel, visible, light);
     let lighting = Lighting { reaches, is_hidden: &is_hidden };
     if let Some(color) = unlit_color(frame, visible, &coefficients, watch) {
         return color;
