@@ -103,7 +103,7 @@
 //!
 //! # Limits
 //!
-//! Local illumination only: no shadows, reflection or global illumination. Vertices are f32, at
+//! Local illumination and hard shadows: no reflection or global illumination. Vertices are f32, at
 //! most 2^126; a scene has fewer than 2^32 − 1 triangles; an image at most 65 536 pixels a side.
 
 pub mod accel;

@@ -5,6 +5,7 @@
 
 mod closed;
 mod lights;
+mod picture;
 mod random;
 mod scenes;
 
