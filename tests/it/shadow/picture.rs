@@ -12,8 +12,8 @@ use truecast::shade::Effects;
 use truecast::visibility::{Counting, Layers};
 
 /// A floor of 16 × 16 units in the plane z = 0, seen along −z so that pixel (i, j) looks at the
-/// point (i − 7.5, 7.5 − j); a screen of 4 × 4 units floats at z = 1 beside the line of sight of
-/// nothing: it is edge-on where it would hide the floor. `more` is further text of the scene.
+/// point (i − 7.5, 7.5 − j); a screen of 4 × 4 units
+/// floats behind the eye, where only the sun sees it. `more` is further text of the scene.
 fn scene(more: &str) -> Scene {
     let text = format!(
         "version = 1\n\
