@@ -107,9 +107,10 @@ impl Accelerator {
         &self,
         segment: &Segment,
         pending: &mut Pending,
-        found: impl FnMut(&[LeafTriangle]) -> bool,
+        mut found: impl FnMut(&[LeafTriangle]) -> bool,
     ) {
-        self.tree.search(segment, pending, found);
+        let ends = |is_found| if is_found { f64::NEG_INFINITY } else { f64::INFINITY };
+        self.tree.traverse(segment, pending, |triangles| ends(found(triangles)));
     }
 }
 

@@ -27,6 +27,13 @@ use crate::mutant::{self, Mutant};
 /// κ = 1 + 8u, u = 2^-53: see the module's derivation.
 const PADDING: f64 = 1.0 + 4.0 * f64::EPSILON;
 
+/// A line that boxes are tested against.
+pub(crate) trait MeetsBoxes {
+    /// Bounds of the line's parameter inside each of two boxes, `[near, far]` per box; near is at
+    /// least 0, far is padded. A box is missed if near > far.
+    fn meet(&self, planes: &[[[f32; 2]; 3]; 2]) -> [[f64; 2]; 2];
+}
+
 /// A ray as the slab test wants it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Slabs {
@@ -45,9 +52,9 @@ impl Slabs {
             near_side: direction.map(|d| usize::from(d < 0.0)),
         }
     }
+}
 
-    /// Bounds of t inside each of two boxes, `[near, far]` per box; near is at least 0, far is
-    /// padded. A box is missed if near > far.
+impl MeetsBoxes for Slabs {
     #[inline(always)]
     fn meet(&self, planes: &[[[f32; 2]; 3]; 2]) -> [[f64; 2]; 2] {
         let mut near = [0.0; 2];
@@ -99,12 +106,13 @@ fn smaller(value: f64, bound: f64) -> f64 {
 pub(crate) struct Pending(Vec<(Child, f64)>);
 
 impl Tree {
-    /// Calls `visit` with the triangles of every leaf that the ray meets before its reach, nearer
+    /// Calls `visit` with the triangles of every leaf that the line meets before its reach, nearer
     /// boxes first where that is cheap to know. `visit` returns the reach from then on: no
-    /// triangle whose exact t is at most the reach is left out (the comparison is not strict).
+    /// triangle whose exact parameter is at most the reach is left out (the comparison is not
+    /// strict); −∞ ends the walk.
     pub(super) fn traverse(
         &self,
-        slabs: &Slabs,
+        boxes: &impl MeetsBoxes,
         pending: &mut Pending,
         mut visit: impl FnMut(&[LeafTriangle]) -> f64,
     ) {
@@ -118,7 +126,7 @@ impl Tree {
                 reach = visit(&self.triangles[range]) * PADDING;
             } else {
                 let node = &self.nodes[child.first as usize];
-                let [near, far] = slabs.meet(&node.planes);
+                let [near, far] = boxes.meet(&node.planes);
                 let met: [bool; 2] = std::array::from_fn(|i| near[i] <= far[i] && near[i] <= reach);
                 let first = usize::from(near[1] < near[0]);
                 match met {

@@ -1,6 +1,6 @@
 //! The program as a user meets it: files written, exit statuses, one clear error for bad input.
 
-use assert_cmd::Command;
+use crate::support::program;
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -62,18 +62,8 @@ struct Ran {
 }
 
 fn truecast(folder: &Path, arguments: &[&str]) -> Ran {
-    let output = Command::new(env!("CARGO_BIN_EXE_truecast"))
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .unwrap();
-    let ran = Ran {
-        status: output.status.code().expect("ended by itself"),
-        stdout: String::from_utf8(output.stdout).unwrap(),
-        stderr: String::from_utf8(output.stderr).unwrap(),
-    };
-    assert!(!ran.stderr.contains("panicked"), "{}", ran.stderr);
-    ran
+    let (status, stdout, stderr) = program::truecast(folder, arguments);
+    Ran { status, stdout, stderr }
 }
 
 /// Renders a bad scene; demands the status, one error line with these words, and no new file.

@@ -3,8 +3,8 @@
 //! is looked at.
 
 use crate::support::golden;
+use crate::support::program::truecast;
 use crate::support::scenes::standard_camera;
-use assert_cmd::Command;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -171,14 +171,7 @@ fn folder() -> TempDir {
 
 /// Runs `export scene.toml` with the arguments and hands back its status and what it printed.
 fn run(folder: &TempDir, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_truecast"))
-        .current_dir(folder.path())
-        .args(["export", "scene.toml"])
-        .args(arguments)
-        .output()
-        .unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
+    truecast(folder.path(), &[&["export", "scene.toml"], arguments].concat())
 }
 
 #[test]

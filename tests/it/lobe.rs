@@ -1,10 +1,9 @@
 //! Goniometric diagrams: curve samples against formulas of this file, the renderer itself and the
 //! claims of the course texts; SVG and PNG as files.
 
-use assert_cmd::Command;
+use crate::support::program::truecast;
 use serde_json::Value;
 use std::fs;
-use std::path::Path;
 use tempfile::TempDir;
 use truecast::accel::BuildPreset;
 use truecast::lobe::{Lobe, Reflectance, diagram};
@@ -20,18 +19,6 @@ use truecast::visibility::Counting;
 /// Largest error of a sample of at most 1 with 1 ≤ ns ≤ 100: cosines of angles that are right to
 /// 2^-52 rad are right to 2.2e-16, their 100th powers to 100 times that; a factor 10 to spare.
 const SAMPLE_TOLERANCE: f64 = 3e-13;
-
-fn truecast(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_truecast"))
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    let (stdout, stderr) = (text(output.stdout), text(output.stderr));
-    assert!(!stderr.contains("panicked"), "{stderr}");
-    (output.status.code().expect("ended by itself"), stdout, stderr)
-}
 
 fn document(arguments: &[&str]) -> Value {
     let folder = TempDir::new().unwrap();

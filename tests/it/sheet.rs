@@ -1,7 +1,7 @@
 //! Sheets as a user meets them: the layout's formula, cells that are plain renders pixel for pixel,
 //! what a cell sets, and errors that name the sheet's line and the cell.
 
-use assert_cmd::Command;
+use crate::support::program::truecast;
 use std::fs;
 use std::path::{Path, PathBuf};
 use tempfile::TempDir;
@@ -75,15 +75,7 @@ impl Folder {
 
     /// Exit status, stdout and stderr of a run in the folder.
     fn run(&self, arguments: &[&str]) -> (i32, String, String) {
-        let output = Command::new(env!("CARGO_BIN_EXE_truecast"))
-            .current_dir(self.0.path())
-            .args(arguments)
-            .output()
-            .unwrap();
-        let text = |bytes| String::from_utf8(bytes).unwrap();
-        let (stdout, stderr) = (text(output.stdout), text(output.stderr));
-        assert!(!stderr.contains("panicked"), "{stderr}");
-        (output.status.code().expect("ended by itself"), stdout, stderr)
+        truecast(self.0.path(), arguments)
     }
 
     /// The sheet's `--json` document, after writing `sheet.png`.

@@ -2,7 +2,7 @@
 //!
 //! What a sample is worth is tested in `scale::supersampling`.
 
-use assert_cmd::Command;
+use crate::support::program::truecast;
 use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
@@ -33,16 +33,6 @@ type = "point"
 position = [1.0, 2.0, 4.0]
 intensity = [1.0, 1.0, 1.0]
 "#;
-
-fn truecast(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_truecast"))
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
-}
 
 fn folder(scene: &str) -> TempDir {
     let folder = TempDir::new().unwrap();

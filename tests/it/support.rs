@@ -3,6 +3,7 @@
 pub(crate) mod closed;
 pub(crate) mod configurations;
 pub(crate) mod golden;
+pub(crate) mod program;
 pub(crate) mod rays;
 pub(crate) mod scenes;
 pub(crate) mod sizes;

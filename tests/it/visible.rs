@@ -1,5 +1,6 @@
 //! The list of visible triangles, against hand values and against the ids of the picture.
 
+use crate::support::program::truecast;
 use crate::support::scenes::{rectangle, standard_camera};
 use assert_cmd::Command;
 use std::collections::BTreeMap;
@@ -113,15 +114,10 @@ fn a_crop_lists_its_own_pixels() {
 }
 
 /// Runs the program; stdout of a success.
-fn truecast(folder: &Path, arguments: &[&str]) -> String {
-    let output = Command::new(env!("CARGO_BIN_EXE_truecast"))
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .unwrap();
-    let stderr = String::from_utf8(output.stderr).unwrap();
-    assert_eq!(output.status.code(), Some(0), "{stderr}");
-    String::from_utf8(output.stdout).unwrap()
+fn listed(folder: &Path, arguments: &[&str]) -> String {
+    let (status, stdout, stderr) = truecast(folder, arguments);
+    assert_eq!(status, 0, "{stderr}");
+    stdout
 }
 
 #[test]
@@ -133,7 +129,7 @@ fn the_list_is_the_picture_by_triangles() {
     for path in ["cast", "raster"] {
         let size = ["--size", "120x90", "--crop", "20,10,111,77", "--path", path];
         let files = ["-o", "ids.npy", "--visible", "list.csv", "--subpixel", "2", "--json"];
-        let printed = truecast(folder.path(), &[&["render", scene], &size[..], &files].concat());
+        let printed = listed(folder.path(), &[&["render", scene], &size[..], &files].concat());
         let document: serde_json::Value = serde_json::from_str(&printed).unwrap();
         let ids = fs::read(folder.path().join("ids.npy")).unwrap();
         let ids: Vec<u32> = npyz::NpyFile::new(&ids[..]).unwrap().into_vec().unwrap();

@@ -18,9 +18,7 @@
 //! handled as in the parent module. Any other gets NaN, for which `larger` and `smaller` leave the
 //! bound as it is: the axis constrains nothing, and the worst that happens is that all is visited.
 
-use super::super::entries::LeafTriangle;
-use super::super::node::Tree;
-use super::{Pending, larger, smaller};
+use super::{MeetsBoxes, larger, smaller};
 
 /// κ = 1 + 16u, u = 2^-53: see the module's derivation.
 const PADDING: f64 = 1.0 + 8.0 * f64::EPSILON;
@@ -68,8 +66,10 @@ impl Segment {
         });
         Self { origin: [pick(0), pick(1)], reciprocal, near_side, reach: reach * PADDING }
     }
+}
 
-    /// Bounds of s inside each of two boxes, `[near, far]`; far is padded and at most the reach.
+impl MeetsBoxes for Segment {
+    /// Far is at most the reach of the segment.
     #[inline(always)]
     fn meet(&self, planes: &[[[f32; 2]; 3]; 2]) -> [[f64; 2]; 2] {
         let mut near = [0.0; 2];
@@ -84,53 +84,5 @@ impl Segment {
             }
         }
         [near, far.map(|far| smaller(far * PADDING + UNDERFLOW, self.reach))]
-    }
-}
-
-impl Tree {
-    /// Calls `found` with the triangles of every leaf that the segment meets, nearer boxes first
-    /// where that is cheap to know, until it says true.
-    pub(in super::super) fn search(
-        &self,
-        segment: &Segment,
-        pending: &mut Pending,
-        mut found: impl FnMut(&[LeafTriangle]) -> bool,
-    ) {
-        let Some(mut child) = self.root else { return };
-        let waiting = &mut pending.0;
-        waiting.clear();
-        loop {
-            if child.count > 0 {
-                let range = child.first as usize..(child.first + child.count) as usize;
-                if found(&self.triangles[range]) {
-                    return;
-                }
-            } else {
-                let node = &self.nodes[child.first as usize];
-                let [near, far] = segment.meet(&node.planes);
-                let met: [bool; 2] = std::array::from_fn(|i| near[i] <= far[i]);
-                let first = usize::from(near[1] < near[0]);
-                match met {
-                    [true, true] => {
-                        waiting.push((node.children[1 - first], near[1 - first]));
-                        child = node.children[first];
-                        continue;
-                    }
-                    [true, false] => {
-                        child = node.children[0];
-                        continue;
-                    }
-                    [false, true] => {
-                        child = node.children[1];
-                        continue;
-                    }
-                    [false, false] => {}
-                }
-            }
-            match waiting.pop() {
-                Some((next, _)) => child = next,
-                None => return,
-            }
-        }
     }
 }

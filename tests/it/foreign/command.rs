@@ -1,6 +1,6 @@
 //! `truecast check --ids --depth` as a user meets it.
 
-use assert_cmd::Command;
+use crate::support::program::truecast;
 use std::path::Path;
 use tempfile::TempDir;
 
@@ -29,19 +29,6 @@ fn folder() -> TempDir {
     );
     assert_eq!(made.0, 0, "{}", made.2);
     folder
-}
-
-/// Exit status, stdout, stderr.
-fn truecast(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_truecast"))
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    let (stdout, stderr) = (text(output.stdout), text(output.stderr));
-    assert!(!stderr.contains("panicked"), "{stderr}");
-    (output.status.code().unwrap(), stdout, stderr)
 }
 
 fn check(folder: &Path, arguments: &[&str]) -> (i32, String, String) {

@@ -1,8 +1,7 @@
 //! Opacity as a user meets it: what `pixel` says, and what cannot be had.
 
-use assert_cmd::Command;
+use crate::support::program::truecast;
 use std::fs;
-use std::path::Path;
 use tempfile::TempDir;
 
 const SCENE: &str = r#"version = 1
@@ -33,16 +32,6 @@ translate = [0.0, 0.0, -2.0]
 type = "ambient"
 ambient = [1.0, 1.0, 1.0]
 "#;
-
-fn truecast(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::new(env!("CARGO_BIN_EXE_truecast"))
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .unwrap();
-    let text = |bytes| String::from_utf8(bytes).unwrap();
-    (output.status.code().unwrap(), text(output.stdout), text(output.stderr))
-}
 
 #[test]
 fn pixel_tells_the_share_of_every_surface() {
