@@ -121,9 +121,8 @@ fn a78_highlights_grow_brighter_with_ks_and_narrower_with_ns() {
             let (dim, bright) = (&pictures[3 * (row - 1) + column], &pictures[3 * row + column]);
             let mut brighter = 0;
             for pixel in dim.pixels_of(0) {
-                for k in 0..3 {
-                    assert!(bright.rgb[pixel][k] >= dim.rgb[pixel][k]);
-                }
+                let [one, other] = [dim, bright].map(|picture| picture.rgb[pixel]);
+                assert!((0..3).all(|k| other[k] >= one[k]), "{one:?} {other:?}");
                 brighter += usize::from(bright.rgb[pixel][0] > dim.rgb[pixel][0]);
             }
             assert!(brighter > 1000, "{brighter}");

@@ -111,14 +111,14 @@ fn a75_exercise_3_the_lamp_gives_a_subtle_light_wherever_the_ball_is() {
     let (lamp, seen) = part(post, [0.35, 2.1, 1.5]);
     for at in [[-3.0, 1.0, 2.0], [0.0, 9.0, 3.0], [3.0, 2.0, -1.0]] {
         let (other, other_seen) = part(post, at);
-        for pixel in 0..lamp.len() {
+        for (pixel, (lamp, other)) in lamp.iter().zip(&other).enumerate() {
             let ball = |picture: &Picture| picture.objects[pixel] == Some(BALL);
             if ball(&seen) || ball(&other_seen) {
                 continue;
             }
             // Differences of f32 sums below 2.
-            let same = (0..3).all(|k| (lamp[pixel][k] - other[pixel][k]).abs() < 5e-7);
-            assert!(same, "{at:?}: {:?} {:?}", lamp[pixel], other[pixel]);
+            let same = (0..3).all(|k| (lamp[k] - other[k]).abs() < 5e-7);
+            assert!(same, "{at:?}: {lamp:?} {other:?}");
         }
     }
     // Subtle, and warm.
