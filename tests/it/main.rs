@@ -12,6 +12,8 @@ mod check_can_fail;
 mod cli;
 // The oracle bundle: what it holds, and what it may replace.
 mod export;
+// The figures of the course texts: sheets, scenes, and what the texts say about them.
+mod figures;
 // Files written and read back: EXR, PNG, NPY, atomic writes.
 mod film;
 // Another program's ids and depths, held against the exact answer.
