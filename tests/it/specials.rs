@@ -4,6 +4,7 @@
 //! The scenes are in `specials::scenes`; in them each number that is put to the test stands in
 //! ‹›. One is replaced at a time.
 
+mod drawn;
 mod scenes;
 
 use scenes::{FORMS, Form};
@@ -122,7 +123,7 @@ fn assert_sound(loaded: Result<Scene, SceneErrors>, name: &str, fate: &mut Fate)
 }
 
 fn load(
-    form: &Form,
+    form: &Form<'_>,
     folder: &Path,
     file: usize,
     replaced: Option<(usize, &str)>,
@@ -138,7 +139,7 @@ fn load(
 }
 
 /// Every mark of a form, every special.
-fn audit(form: &Form) {
+fn audit(form: &Form<'_>) {
     let folder = tempfile::tempdir().unwrap();
     let mut plain = Fate::default();
     assert_sound(load(form, folder.path(), 0, None), form.name, &mut plain);
