@@ -17,7 +17,6 @@ use std::fs;
 use std::path::Path;
 use tempfile::TempDir;
 use truecast::accel::BuildPreset;
-use truecast::pixel::Pixel;
 use truecast::render::{Unwatched, VisibilityPath, see};
 use truecast::scene::{Overrides, Scene};
 use truecast::shade::{self, Effects, Shaded};
@@ -186,11 +185,6 @@ fn tilted(angle: f64) -> V3 {
 fn assert_near(value: f64, right: f64, tolerance: f64) {
     let is_near = (value - right).abs() <= tolerance * right.abs();
     assert!(is_near, "{value:e} instead of {right:e}: off by {:e}", (value / right - 1.0).abs());
-}
-
-/// The pixel of [`GRID`] that looks at (x, y, 0).
-fn pixel_at(x: i32, y: i32) -> Pixel {
-    Pixel { x: (8 + x) as u32, y: (8 - y) as u32 }
 }
 
 #[test]
