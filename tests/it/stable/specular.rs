@@ -66,7 +66,7 @@ fn s04_halfway_of_nearly_opposite_directions() {
     for (epsilon, right) in [
         (1e-6, 0.707_106_781_186_515_7),
         (1e-7, 0.707_106_781_186_547_2),
-        (1e-8, 0.707_106_781_186_547_6),
+        (1e-8, std::f64::consts::FRAC_1_SQRT_2),
     ] {
         let setup = Setup::plate(normal)
             .glossy(1.0)
