@@ -73,4 +73,19 @@ impl Film {
     pub fn plane(&self, name: &str) -> Option<&Samples> {
         self.planes.iter().find(|plane| plane.name == name).map(|plane| &plane.samples)
     }
+
+    /// How many pixels are brighter than f32 can hold: infinite in `R`, `G` or `B`.
+    pub fn infinite_pixels(&self) -> usize {
+        let colors: Vec<&[f32]> = ["R", "G", "B"]
+            .into_iter()
+            .filter_map(|name| match self.plane(name) {
+                Some(Samples::Float(values)) => Some(values.as_slice()),
+                _ => None,
+            })
+            .collect();
+        let is_infinite = |index: &usize| {
+            colors.iter().any(|values| values.get(*index).is_some_and(|value| value.is_infinite()))
+        };
+        (0..self.window.len()).filter(is_infinite).count()
+    }
 }

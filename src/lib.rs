@@ -99,7 +99,9 @@
 //! Every answer is the exact one. f32 and f64 filters with derived bounds take nearly all decisions,
 //! exact arithmetic the rest; [`visibility::LevelCounts`] says how many each took. Shading is f64, in
 //! forms that do not break on grazing angles, tiny cones or huge exponents, and the same bits for
-//! any number of threads.
+//! any number of threads. Where shading meets a case that has no right value (a light at the surface,
+//! a normal that cancels, a side that rounding decides), it says so: [`shade::Notes`] count such
+//! cases, and the plane `invalid` ([`render::PlaneGroup::Invalid`]) shows where they are.
 //!
 //! # Limits
 //!

@@ -140,7 +140,7 @@ impl Scene {
             assert!(c.is_finite(), "positions are finite");
             m.max(c.abs())
         });
-        assert!(f64::from(largest) <= 2.0_f64.powi(126), "positions are at most 2^126");
+        assert!(f64::from(largest) <= lattice::power_of_two(126), "positions are at most 2^126");
         let count = triangles.len() as u32;
         Self {
             camera,

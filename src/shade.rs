@@ -9,6 +9,7 @@ pub mod blinn_phong;
 mod calls;
 mod coefficients;
 mod corners;
+pub mod doubt;
 pub mod effects;
 mod equation;
 pub mod footprint;
@@ -26,6 +27,7 @@ pub mod watch;
 mod weights;
 
 pub use calls::{Call, explain};
+pub use doubt::doubts;
 pub use effects::Effects;
 pub use kernel::{Asker, Occlusion};
 pub use surface::{SurfacePoint, surface_point};

@@ -74,7 +74,7 @@ pub(super) struct RenderArguments {
           default_value_t = DepthBuffer::STANDARD_FAR)]
     pub(super) far: f64,
     /// Planes of the EXR: a comma-separated list of rgba, Z, t, P, N, Ns, uv, bary, id, facing,
-    /// cover, verdict, stable; or all [default: all but cover and stable]
+    /// cover, verdict, stable, invalid; or all [default: all but cover, stable and invalid]
     #[arg(long, value_name = "LIST")]
     pub(super) aov: Option<String>,
     /// Render at this size instead of the scene's

@@ -1,7 +1,8 @@
 //! Lays visibility, radiance and alpha out as the named planes of a film.
 //!
 //! Where nothing is visible at a pixel's centre, ids are 0xFFFF_FFFF and every plane but colour
-//! is 0 (no surface lies at depth 0), except `stable`, which speaks of nothing as of a triangle. Values are rounded to f32 once, here.
+//! is 0 (no surface lies at depth 0), except `stable`, which speaks of nothing as of a triangle, and
+//! `invalid`, which speaks of the background's colour too. Values are rounded to f32 once, here.
 
 use super::{Accuracy, PlaneGroup, PlaneGroups, describe};
 use crate::color::LinearRgb;
@@ -9,7 +10,7 @@ use crate::film::{Film, Plane, Samples};
 use crate::pixel::for_each_row;
 use crate::raster::{STANDARD_HALF_WIDTH, stability};
 use crate::scene::Scene;
-use crate::shade::surface_point;
+use crate::shade::{Effects, doubt, doubts, surface_point};
 use crate::visibility::{VisibilityBuffer, Visible};
 
 /// "Nothing is visible" in id planes.
@@ -91,6 +92,17 @@ fn fill(
         PlaneGroup::Stable => {
             let stable = stability(scene, buffer, STANDARD_HALF_WIDTH, &|| ());
             vec![Samples::Uint(stable.into_iter().map(u32::from).collect())]
+        }
+        PlaneGroup::Invalid => {
+            // What the file holds decides about its range, not the centre's sample in f64.
+            let mut bits = doubts(scene, buffer, Effects::of(scene));
+            for (bits, rgb) in bits.iter_mut().zip(radiance) {
+                *bits &= !doubt::BEYOND_RANGE;
+                if rgb.iter().any(|&value| !(value as f32).is_finite()) {
+                    *bits |= doubt::BEYOND_RANGE;
+                }
+            }
+            vec![Samples::Uint(bits)]
         }
     }
 }

@@ -31,11 +31,28 @@ pub enum PlaneGroup {
     Verdict,
     /// `stable`: 1 where the answer is certainly the same within ±1/256 pixel.
     Stable,
+    /// `invalid`: the doubtful cases that shading met at the pixel's centre, on the nearest surface,
+    /// as the sum of
+    ///
+    /// | bit | case |
+    /// |---|---|
+    /// | 1 | a light lies at the surface point and gave its ambient part only |
+    /// | 2 | \|N·L\| < 1e-13: rounding decides on which side of the terminator the point is |
+    /// | 4 | L = −V: no halfway vector, no highlight |
+    /// | 8 | the interpolated normal cancelled, and the face normal was used |
+    /// | 16 | the face is too thin to have a normal |
+    /// | 32 | directions interpolated from the corners cancelled, and the light gave its ambient part only |
+    /// | 64 | a corner at or behind the eye plane: weights stayed perspective-correct |
+    /// | 128 | the pixel's colour is beyond f32: infinite in the file |
+    ///
+    /// The bits are those of [`crate::shade::doubt`]; only 128 speaks of the whole pixel, with all
+    /// its samples and surfaces.
+    Invalid,
 }
 
 impl PlaneGroup {
     /// Every group, in the order of the file format's description.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Color,
         Self::Depth,
         Self::RayParameter,
@@ -49,6 +66,7 @@ impl PlaneGroup {
         Self::Cover,
         Self::Verdict,
         Self::Stable,
+        Self::Invalid,
     ];
 
     /// The name by which the group is asked for.
@@ -67,6 +85,7 @@ impl PlaneGroup {
             Self::Cover => "cover",
             Self::Verdict => "verdict",
             Self::Stable => "stable",
+            Self::Invalid => "invalid",
         }
     }
 
@@ -86,6 +105,7 @@ impl PlaneGroup {
             Self::Cover => &["cover"],
             Self::Verdict => &["verdict.level", "verdict.tie"],
             Self::Stable => &["stable"],
+            Self::Invalid => &["invalid"],
         }
     }
 }
@@ -104,9 +124,9 @@ pub struct PlaneGroups(Vec<PlaneGroup>);
 
 impl PlaneGroups {
     /// Every plane that comes with the visible triangle: all but `cover`, which must look past it,
-    /// and `stable`, which takes a pass of its own.
+    /// and `stable` and `invalid`, which take a pass of their own.
     pub fn standard() -> Self {
-        let costs_more = [PlaneGroup::Cover, PlaneGroup::Stable];
+        let costs_more = [PlaneGroup::Cover, PlaneGroup::Stable, PlaneGroup::Invalid];
         Self(PlaneGroup::ALL.into_iter().filter(|group| !costs_more.contains(group)).collect())
     }
 
@@ -180,8 +200,9 @@ mod tests {
     #[test]
     fn the_standard_set_never_looks_past_the_visible_triangle() {
         let standard = PlaneGroups::standard();
-        assert!(!standard.has(PlaneGroup::Cover) && !standard.has(PlaneGroup::Stable));
-        let all = standard.with(PlaneGroup::Stable).with(PlaneGroup::Cover);
+        let costly = [PlaneGroup::Invalid, PlaneGroup::Stable, PlaneGroup::Cover];
+        assert!(costly.iter().all(|group| !standard.has(*group)));
+        let all = costly.into_iter().fold(standard, PlaneGroups::with);
         assert_eq!(all, PlaneGroups::all());
     }
 }

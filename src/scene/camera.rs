@@ -6,7 +6,7 @@
 //! pixel grid; so the rounded camera *is* the camera, and every reader of it speaks of the same
 //! ray. No ray is set up and no point is projected here: each visibility path does so itself.
 
-use super::lattice;
+use super::lattice::{self, power_of_two};
 use crate::pixel::Resolution;
 
 /// Why numbers do not make a camera.
@@ -285,7 +285,7 @@ fn check_eye(eye: [f64; 3]) -> Result<(), CameraError> {
     finite("eye", &eye)?;
     match eye
         .iter()
-        .find(|c| c.abs() > 2.0_f64.powi(126) || (**c != 0.0 && c.abs() < 2.0_f64.powi(-96)))
+        .find(|c| c.abs() > power_of_two(126) || (**c != 0.0 && c.abs() < power_of_two(-96)))
     {
         Some(&component) => Err(CameraError::EyeRange(component)),
         None => Ok(()),
@@ -295,7 +295,7 @@ fn check_eye(eye: [f64; 3]) -> Result<(), CameraError> {
 /// An eye that comes out of a matrix inverse holds rounding noise where it should hold 0:
 /// components below 2^-96 are far beneath the inverse's own error and become 0.
 fn flush_noise(eye: [f64; 3]) -> [f64; 3] {
-    eye.map(|c| if c.abs() < 2.0_f64.powi(-96) { 0.0 } else { c })
+    eye.map(|c| if c.abs() < power_of_two(-96) { 0.0 } else { c })
 }
 
 fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {

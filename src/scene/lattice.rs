@@ -22,12 +22,12 @@ pub(super) struct Lattice {
 /// Rounds `[D0, DX, DY]` (finite) to the lattice; `None` when M is not within 2^±300.
 pub(super) fn put_on_lattice(resolution: Resolution, vectors: [[f64; 3]; 3]) -> Option<Lattice> {
     let m = extent(resolution, vectors);
-    if !(2.0_f64.powi(-300)..=2.0_f64.powi(300)).contains(&m) {
+    if !(power_of_two(-300)..=power_of_two(300)).contains(&m) {
         return None;
     }
     let mut exponent = binary_exponent(m);
     loop {
-        let q0 = 2.0_f64.powi(exponent - 53);
+        let q0 = power_of_two(exponent - 53);
         let q1 = q0 * f64::from(1 << SUBPIXEL_BITS);
         // Division by a power of two is exact here: M/q0 < 2^54 and M > 2^-300.
         let round = |value: f64, q: f64| (value / q).round_ties_even() * q + 0.0;
@@ -36,7 +36,7 @@ pub(super) fn put_on_lattice(resolution: Resolution, vectors: [[f64; 3]; 3]) -> 
             [d0.map(|c| round(c, q0)), dx.map(|c| round(c, q1)), dy.map(|c| round(c, q1))];
         // Rounding up may pass 2^E by a few q; the sum is exact while it does not, so this
         // comparison cannot err on the accepting side.
-        if extent(resolution, rounded) <= 2.0_f64.powi(exponent) {
+        if extent(resolution, rounded) <= power_of_two(exponent) {
             return Some(Lattice { vectors: rounded, exponent });
         }
         exponent += 1;
@@ -66,11 +66,11 @@ pub(super) fn deviation_pixels(
 
 /// Exact sign of det[a b c] for vectors on the lattice of exponent `exponent`.
 pub(super) fn determinant_sign(columns: [[f64; 3]; 3], exponent: i32) -> i32 {
-    let q0 = 2.0_f64.powi(exponent - 53);
+    let q0 = power_of_two(exponent - 53);
     let [a, b, c] = columns.map(|column| {
         column.map(|value| {
             let steps = value / q0;
-            debug_assert!(steps.fract() == 0.0 && steps.abs() <= 2.0_f64.powi(53));
+            debug_assert!(steps.fract() == 0.0 && steps.abs() <= power_of_two(53));
             IBig::from(steps as i64)
         })
     });
@@ -92,8 +92,13 @@ fn extent(resolution: Resolution, [d0, dx, dy]: [[f64; 3]; 3]) -> f64 {
     (0..3).map(|k| d0[k].abs() + width * dx[k].abs() + height * dy[k].abs()).fold(0.0, f64::max)
 }
 
+/// 2^`exponent`, exactly, down to the subnormal ones.
+pub(super) fn power_of_two(exponent: i32) -> f64 {
+    libm::scalbn(1.0, exponent)
+}
+
 /// The smallest E with `value ≤ 2^E`, for a normal positive value.
 fn binary_exponent(value: f64) -> i32 {
     let floor = ((value.to_bits() >> 52) & 0x7ff) as i32 - 1023;
-    if value == 2.0_f64.powi(floor) { floor } else { floor + 1 }
+    if value == power_of_two(floor) { floor } else { floor + 1 }
 }

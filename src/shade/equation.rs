@@ -199,6 +199,12 @@ fn light_up<const E: u8, W: Watch>(
         }
     }
 
+    // Gate by the normal: a face too thin to have one has no side, whatever the switches say.
+    if geometry.normal == [0.0; 3] {
+        term.outcome = Outcome::NoNormal;
+        return;
+    }
+
     // Gate by the sign of N·L.
     if let (Some(mixture), Some((at, _))) = (&geometry.mixture, reach) {
         let Some(mixed) = mixture.direction_to(at.position) else {
@@ -264,6 +270,11 @@ fn light_up<const E: u8, W: Watch>(
         term.diffuse = diffuse.map(|color| factor * color * n_dot_l);
     }
     if shines {
+        // The corners' directions to the eye may cancel as those to a light do.
+        if geometry.to_eye == [0.0; 3] {
+            watch.note(Note::CancelledVectors);
+            return;
+        }
         watch.evaluated(Effects::SPECULAR);
         let Some((cosine, power)) = specular_lobe(rules, geometry, to_light, coefficients.exponent)
         else {
@@ -288,6 +299,10 @@ fn light_up_from_all_around<W: Watch>(
     watch: &mut W,
 ) {
     if is_black(coefficients.diffuse) {
+        return;
+    }
+    if geometry.normal == [0.0; 3] {
+        term.outcome = Outcome::NoNormal;
         return;
     }
     watch.evaluated(Effects::HEMISPHERE);

@@ -21,6 +21,8 @@ pub enum Outcome {
     Shadowed,
     /// Directions interpolated from the corners cancelled.
     NoDirection,
+    /// The face is too thin to have a normal.
+    NoNormal,
     /// It reaches the surface.
     Lit,
 }
@@ -36,6 +38,7 @@ impl Outcome {
             Self::Faded => "faded to nothing",
             Self::Shadowed => "in shadow",
             Self::NoDirection => "without direction",
+            Self::NoNormal => "without a normal to meet",
             Self::Lit => "lit",
         }
     }

@@ -55,7 +55,8 @@ pub struct Notes {
     /// Pixels on faces too thin to have a normal in f64; they get no directed light.
     pub missing_normals: u64,
     /// Pairs of pixel and light where directions interpolated from the corners cancelled (or none
-    /// of them exists) and left no direction; the light gave its ambient part only.
+    /// of them exists) and left no direction: none to the light, which gave its ambient part only,
+    /// or none to the eye, and no highlight.
     pub cancelled_vectors: u64,
     /// Pixels on triangles with a corner at or behind the eye plane, whose weights stayed
     /// perspective-correct though the scene asks for weights linear on the screen.

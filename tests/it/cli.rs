@@ -302,3 +302,35 @@ fn a_crop_is_a_part_of_the_frame() {
         }
     }
 }
+
+#[test]
+fn doubtful_pixels_and_colours_beyond_f32_are_reported() {
+    let folder = Folder::new();
+    // The lamp lies in the triangle's plane: every pixel that it meets is at the terminator.
+    let flat = SCENE.replace("[1.0, 2.0, 4.0]", "[1.0, 2.0, 0.0]");
+    folder.write("flat.toml", &flat);
+    let arguments = ["render", "flat.toml", "--aov", "all", "-o", "flat.exr", "--json"];
+    let ran = truecast(folder.0.path(), &arguments);
+    let report: serde_json::Value = serde_json::from_str(&ran.stdout).unwrap();
+    let covered = report["covered_pixels"].as_u64().unwrap();
+    assert!(covered > 20);
+    assert_eq!(report["invalid_pixels"], covered);
+    assert_eq!(report["notes"]["near_terminator"], covered);
+    for key in ["cancelled_vectors", "perspective_kept", "missing_normals"] {
+        assert_eq!(report["notes"][key], 0);
+    }
+    assert_eq!(report["infinite_pixels"], 0);
+    // Without the plane nobody counts its pixels.
+    let ran = truecast(folder.0.path(), &["render", "flat.toml", "-o", "flat.exr", "--json"]);
+    let report: serde_json::Value = serde_json::from_str(&ran.stdout).unwrap();
+    assert_eq!(report["invalid_pixels"], serde_json::Value::Null);
+
+    folder.write("bright.toml", &SCENE.replace("intensity = [1.0,", "intensity = [1e45,"));
+    let arguments = ["render", "bright.toml", "--aov", "rgba,invalid", "-o", "bright.exr"];
+    let ran = truecast(folder.0.path(), &arguments);
+    assert_eq!(ran.status, 0, "{}", ran.stderr);
+    let said = format!("{covered} pixels are brighter than f32 can hold: infinite in the EXR");
+    assert!(ran.stdout.contains(&said), "{}", ran.stdout);
+    let said = format!("{covered} pixels have a bit in the plane invalid");
+    assert!(ran.stdout.contains(&said), "{}", ran.stdout);
+}

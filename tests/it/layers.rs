@@ -4,6 +4,7 @@
 //! agreement would prove nothing. Paths count wherever they stand, in tests too; comments and
 //! strings do not.
 
+mod arithmetic;
 mod paths;
 mod samples;
 mod tokens;

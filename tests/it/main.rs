@@ -56,6 +56,8 @@ mod shadow;
 mod sheet;
 // Every special float in every number of a scene: a finite picture or an error with a place.
 mod specials;
+// Stable shading by its names, S01 to S35; the plane of doubtful cases.
+mod stable;
 // The stability mask against moved samples and moved vertices.
 mod stability;
 // 200 generated scenes made of structure: both paths agree at every pixel.

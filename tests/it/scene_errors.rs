@@ -4,6 +4,7 @@
 mod frame;
 mod lights;
 mod meshes;
+mod numbers;
 
 use lights::light_refused;
 use meshes::mesh_refused;

@@ -4,8 +4,9 @@ use super::Written;
 use crate::cli::arguments::{PathWord, RenderArguments};
 use serde_json::json;
 use std::time::Duration;
+use truecast::film::Samples;
 use truecast::render::visible::SubsampleGrid;
-use truecast::render::{Accuracy, Frame, RenderOptions};
+use truecast::render::{Accuracy, Frame, PlaneGroup, RenderOptions};
 use truecast::scene::Scene;
 use truecast::shade::Notes;
 
@@ -17,8 +18,16 @@ fn count_visible(frame: &Frame) -> Option<(usize, usize)> {
     Some((at_centres, list.len() - at_centres))
 }
 
+/// How many pixels have a bit in the plane `invalid`, if it was asked for.
+fn count_invalid(frame: &Frame) -> Option<usize> {
+    match frame.film.plane(PlaneGroup::Invalid.name())? {
+        Samples::Uint(bits) => Some(bits.iter().filter(|&&bits| bits != 0).count()),
+        Samples::Float(_) => None,
+    }
+}
+
 /// What shading has to report: count, key, words.
-fn notes(notes: &Notes) -> [(u64, &'static str, &'static str); 6] {
+fn notes(notes: &Notes) -> [(u64, &'static str, &'static str); 8] {
     [
         (
             notes.lights_at_surface,
@@ -41,6 +50,16 @@ fn notes(notes: &Notes) -> [(u64, &'static str, &'static str); 6] {
             "pixels where interpolated normals cancelled and the face normal was used",
         ),
         (notes.missing_normals, "missing_normals", "pixels on faces too thin to have a normal"),
+        (
+            notes.cancelled_vectors,
+            "cancelled_vectors",
+            "times directions interpolated from the corners cancelled: ambient part only",
+        ),
+        (
+            notes.perspective_kept,
+            "perspective_kept",
+            "times a corner at or behind the eye plane kept weights perspective-correct",
+        ),
         (notes.non_finite, "non_finite", "pixels whose radiance left the range of f64"),
     ]
 }
@@ -89,6 +108,13 @@ pub(super) fn summary(
         if count > 0 {
             text += &format!("{count} {what}\n");
         }
+    }
+    let infinite = frame.film.infinite_pixels();
+    if infinite > 0 {
+        text += &format!("{infinite} pixels are brighter than f32 can hold: infinite in the EXR\n");
+    }
+    if let Some(invalid) = count_invalid(frame) {
+        text += &format!("{invalid} pixels have a bit in the plane invalid\n");
     }
     text
 }
@@ -156,6 +182,8 @@ pub(super) fn document(
         "picture": serde_json::from_str::<serde_json::Value>(&frame.film.description)
             .unwrap_or_default(),
         "notes": notes,
+        "infinite_pixels": frame.film.infinite_pixels(),
+        "invalid_pixels": count_invalid(frame),
         "warnings": scene.warnings,
         "files": files,
         "times_ms": times_ms,

@@ -3,8 +3,11 @@
 
 use super::neutrality::busy_scene;
 use super::stage::{V3, bits, look, unit};
-use truecast::scene::Scene;
+use std::path::Path;
 use truecast::scene::light::{Light, LightColors};
+use truecast::scene::switches::{DIALECTS, SWITCHES, SwitchValue, Switches};
+use truecast::scene::texture::{Filter, Level, Texture, TextureRef, Wrap};
+use truecast::scene::{Scene, Shading, Sides};
 use truecast::shade::{self, Effects};
 use truecast::visibility::VisibilityBuffer;
 
@@ -146,6 +149,44 @@ fn set_light(light: &mut Light, field: usize, value: f64, channel: usize, dice: 
     }
 }
 
+/// Draws a dialect and switches, a way of shading, maps with texture coordinates of any size, colours
+/// of vertices, and whether the second material is lit at all.
+fn set_words(scene: &mut Scene, dice: &mut Dice) {
+    let mut switches = Switches::of_dialect(DIALECTS[dice.below(DIALECTS.len())]).unwrap();
+    for switch in &SWITCHES {
+        if dice.below(3) != 0 {
+            continue;
+        }
+        let value = match switch.words {
+            [] => SwitchValue::Is(dice.below(2) == 0),
+            words => SwitchValue::Word(words[dice.below(words.len())]),
+        };
+        switches = switches.with(switch.name, value);
+    }
+    scene.switches = switches;
+    scene.objects[0].shading = Shading::NAMED[dice.below(Shading::NAMED.len())].0;
+    scene.objects[0].sides = [Sides::Single, Sides::Double][dice.below(2)];
+    scene.materials[1].unlit = dice.below(4) == 0;
+    let count = scene.mesh.positions.len();
+    scene.mesh.colors =
+        (0..count).map(|_| [dice.magnitude(), dice.magnitude(), dice.magnitude()]).collect();
+    scene.mesh.uvs = (0..count).map(|_| [dice.signed(), dice.signed()]).collect();
+    scene.mesh.corner_uvs = scene.mesh.corners.clone();
+    let texels = vec![[0.0, 0.5, 1.0], [f32::MAX, 1e-45, 0.25], [1.0; 3], [0.0; 3]];
+    let texture = Texture::new(Path::new("t.png"), Level::new(2, 2, texels).unwrap());
+    scene.textures = vec![texture.with_levels()];
+    let mut map = || {
+        (dice.below(2) == 0).then(|| TextureRef {
+            texture: 0,
+            filter: Filter::NAMED[dice.below(3)].1,
+            wrap: Wrap::NAMED[dice.below(2)].1,
+            scale: [dice.signed(), dice.signed()],
+            offset: [dice.signed(), dice.signed()],
+        })
+    };
+    (scene.materials[0].kd_map, scene.materials[0].ks_map) = (map(), map());
+}
+
 /// Shades and checks; returns how many pixels left the range.
 fn check(scene: &Scene, buffer: &VisibilityBuffer) -> u64 {
     let shaded = shade::shade(scene, buffer, Effects::of(scene), &|| ());
@@ -182,6 +223,28 @@ fn numbers_at_the_ends_of_their_ranges_never_make_nan() {
     }
     // Both kinds of scene were really met.
     assert!(infinite > 0 && scenes_in_range > 3_000, "{infinite} {scenes_in_range}");
+}
+
+#[test]
+fn words_and_numbers_at_the_ends_of_their_ranges_never_make_nan() {
+    let mut dice = Dice(35);
+    let original = busy_scene();
+    let buffer = look(&original);
+    let (mut infinite, mut scenes_in_range) = (0, 0);
+    for round in 0..6_000 {
+        let mut scene = original.clone();
+        set_words(&mut scene, &mut dice);
+        let mut moved = false;
+        for _ in 0..if round < 2_000 { 0 } else { dice.below(8) } {
+            let field = dice.below(FIELDS);
+            moved |= (9..=11).contains(&field);
+            set(&mut scene, field, &mut dice);
+        }
+        let pixels = if moved { check(&scene, &look(&scene)) } else { check(&scene, &buffer) };
+        infinite += pixels;
+        scenes_in_range += u32::from(pixels == 0);
+    }
+    assert!(infinite > 0 && scenes_in_range > 2_000, "{infinite} {scenes_in_range}");
 }
 
 #[test]

@@ -1,15 +1,15 @@
 //! Scenes in which every number that a special float may replace stands in ‹›.
 
 /// A scene text and the mesh files beside it; no mesh file where the text is empty.
-pub(super) struct Form {
-    pub(super) name: &'static str,
-    pub(super) scene: &'static str,
-    pub(super) obj: &'static str,
-    pub(super) mtl: &'static str,
+pub(super) struct Form<'a> {
+    pub(super) name: &'a str,
+    pub(super) scene: &'a str,
+    pub(super) obj: &'a str,
+    pub(super) mtl: &'a str,
 }
 
 /// Look-at camera and a mesh file; exact camera, matrix and all lights; the other two cameras.
-pub(super) const FORMS: [Form; 4] = [
+pub(super) const FORMS: [Form<'static>; 4] = [
     Form { name: "look-at", scene: LOOK_AT, obj: MESH, mtl: COLOURS },
     Form { name: "exact", scene: EXACT, obj: "", mtl: "" },
     Form { name: "opencv", scene: OPENCV, obj: "", mtl: "" },
