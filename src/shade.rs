@@ -188,8 +188,7 @@ pub fn terms(
             let is_smooth = method == Method::SmoothPixel;
             let geometry = kernel::geometry_at_pixel::<ALL, _>(
                 &frame,
-                pixel,
-                visible,
+                &kernel::Seen { pixel, visible, position: None },
                 is_smooth,
                 &coefficients,
                 &mut Nobody,

@@ -15,6 +15,7 @@ use super::vector;
 pub(super) const OPPOSITE_SQUARED: f64 = 1e-24;
 
 /// 1 − cos of the angle between two unit vectors, with full relative accuracy; never negative.
+#[inline]
 pub(super) fn one_minus_cosine(a: [f64; 3], b: [f64; 3]) -> f64 {
     0.5 * vector::squared_length(vector::sub(a, b))
 }
@@ -46,6 +47,7 @@ pub(super) fn shortened_lobe(q: f64, length: f64, exponent: f64) -> f64 {
 }
 
 /// H, the unit vector halfway between two unit vectors; `None` where they are opposite.
+#[inline]
 pub fn halfway(l: [f64; 3], v: [f64; 3]) -> Option<[f64; 3]> {
     let sum = vector::add(l, v);
     let squared = vector::squared_length(sum);
