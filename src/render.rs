@@ -8,9 +8,11 @@ mod answerer;
 mod describe;
 mod develop;
 pub mod expose;
+mod measure;
 mod planes;
 mod progress;
 mod subsamples;
+mod surface_planes;
 pub mod visible;
 
 pub use accuracy::Accuracy;
@@ -18,6 +20,7 @@ pub use answerer::Answerer;
 pub use describe::describe;
 pub use develop::develop;
 pub use expose::{Exposure, expose};
+pub use measure::{EffectTime, ShadingTimes, Timing, measure};
 pub use planes::{PlaneGroup, PlaneGroups, UnknownPlane};
 pub use progress::{Progress, Unwatched};
 

@@ -76,6 +76,17 @@ impl<'a> Frame<'a> {
         }
     }
 
+    /// A frame for [`Watch::UNGATED`]: every surface is set up, every light is asked everywhere.
+    pub(super) fn ungated(scene: &'a Scene) -> Self {
+        let lights = lights::prepare_ungated(&scene.lights, scene.switches.rules());
+        Self {
+            lights,
+            directed: true,
+            selects_lights: false,
+            ..Self::new(scene, Effects::ALL, None)
+        }
+    }
+
     /// Whether a light is hidden from the surface at a pixel.
     pub(super) fn is_hidden(&self, pixel: Pixel, visible: &Visible, light: usize) -> bool {
         self.occlusion.is_some_and(|occlusion| occlusion(pixel, visible, light))
@@ -215,9 +226,9 @@ fn shade_pixel<const E: u8, W: Watch>(
             let is_smooth = method == Method::SmoothCorners && effects.has(KernelEffects::NORMALS);
             let colors = memo.colors(visible, depends_on_pixel, || {
                 [0, 1, 2].map(|corner| {
-                    let sees = frame.sees(&coefficients, effects);
-                    let point = sees
-                        .then(|| corners::at_corner(frame, visible, corner, is_smooth, watch));
+                    let sees = frame.sees::<W>(&coefficients, effects);
+                    let point =
+                        sees.then(|| corners::at_corner(frame, visible, corner, is_smooth, watch));
                     radiance_of::<E, W>(frame, &coefficients, point.as_ref(), lighting, watch)
                 })
             });
@@ -226,7 +237,7 @@ fn shade_pixel<const E: u8, W: Watch>(
         method @ (Method::Centroid | Method::LastCorner) => {
             memo.colors(visible, depends_on_pixel, || {
                 let is_smooth = effects.has(KernelEffects::NORMALS);
-                let point = frame.sees(&coefficients, effects).then(|| match method {
+                let point = frame.sees::<W>(&coefficients, effects).then(|| match method {
                     Method::Centroid => corners::at_centroid(frame, visible, watch),
                     _ => corners::at_corner(frame, visible, 2, is_smooth, watch),
                 });
@@ -264,7 +275,7 @@ pub(super) fn geometry_at_pixel<const E: u8, W: Watch>(
 ) -> Option<Geometry> {
     let effects = const { KernelEffects(E) };
     let (scene, rules, pixel, visible) = (frame.scene, frame.rules, seen.pixel, seen.visible);
-    if !frame.sees(coefficients, effects) {
+    if !frame.sees::<W>(coefficients, effects) {
         return None;
     }
     let is_smooth = is_smooth && effects.has(KernelEffects::NORMALS);
@@ -299,8 +310,9 @@ pub(super) fn geometry_at_pixel<const E: u8, W: Watch>(
 
 impl Frame<'_> {
     /// Whether some light's direction matters to a surface with these coefficients.
-    pub(super) fn sees(&self, coefficients: &Coefficients, effects: KernelEffects) -> bool {
-        let reflects = !is_black(coefficients.diffuse)
+    fn sees<W: Watch>(&self, coefficients: &Coefficients, effects: KernelEffects) -> bool {
+        let reflects = W::UNGATED
+            || !is_black(coefficients.diffuse)
             || effects.has(KernelEffects::SPECULAR) && !is_black(coefficients.specular)
             || self.rules.attenuate_ambient && !is_black(coefficients.ambient);
         self.directed && reflects

@@ -85,6 +85,22 @@ pub(super) fn prepare(lights: &[Light], rules: &Rules, effects: Effects) -> Vec<
         .collect()
 }
 
+/// All of the scene's lights with all of their parts, black or not.
+pub(super) fn prepare_ungated(lights: &[Light], rules: &Rules) -> Vec<PreparedLight> {
+    let origin = |light: &Light| match light {
+        Light::Hemisphere(hemisphere) => Origin::Hemisphere(*hemisphere),
+        light => origin_of(light, Effects::ALL),
+    };
+    let lights = lights.iter().enumerate();
+    lights
+        .map(|(index, light)| PreparedLight {
+            origin: origin(light),
+            shadows: false,
+            ..prepare_light(index, light, rules, Effects::ALL)
+        })
+        .collect()
+}
+
 fn prepare_light(index: usize, light: &Light, rules: &Rules, effects: Effects) -> PreparedLight {
     let (colors, kind) = match light {
         Light::Hemisphere(hemisphere) => {
