@@ -45,7 +45,9 @@ fn bits(radiance: &[LinearRgb]) -> Vec<[u64; 3]> {
 /// Radiance and alpha of a whole exposure.
 fn exposed(scene: &Scene, effects: Effects) -> (Vec<[u64; 3]>, Vec<u64>) {
     let answerer = Answerer::Cast(Accelerator::build(&scene.mesh, BuildPreset::Fast));
-    let buffer = look(scene);
+    // Several samples are asked of the same path: another may differ in the weights' last bits.
+    let window = scene.camera.resolution().window();
+    let buffer = answerer.answer(scene, window, Counting::Nearest, &|| ());
     let layers = answerer.layers(scene, &buffer, &|| ());
     let seen = (&buffer, &layers);
     let exposure = expose(scene, &answerer, seen, effects, &truecast::render::Unwatched);
@@ -59,15 +61,17 @@ fn effects_that_are_not_called_for_change_no_bit() {
         assert!(buffer.covered_pixels() > 50, "{name}");
         let needed = Effects::of(&scene);
         let reference = shade::shade(&scene, &buffer, Effects::ALL, &|| ());
+        let right = bits(&reference.radiance);
         let supersets = Effects::NAMED.map(|(extra, _)| needed.with(extra));
         for effects in supersets.into_iter().chain([needed]) {
             let shaded = shade::shade(&scene, &buffer, effects, &|| ());
-            assert_eq!(bits(&shaded.radiance), bits(&reference.radiance), "{name}: {effects:?}");
+            assert!(bits(&shaded.radiance) == right, "{name}: {effects:?}");
             assert_eq!(shaded.notes, reference.notes, "{name}: {effects:?}");
         }
         let forced = shade::shade_ungated(&scene, &buffer);
-        assert_eq!(bits(&forced), bits(&reference.radiance), "{name}: everything evaluated");
-        assert_eq!(exposed(&scene, needed), exposed(&scene, Effects::ALL), "{name}: exposed");
+        assert!(bits(&forced) == right, "{name}: everything evaluated");
+        let is_same = exposed(&scene, needed) == exposed(&scene, Effects::ALL);
+        assert!(is_same, "{name}: exposed");
     }
 }
 
@@ -86,7 +90,7 @@ fn effects_that_are_called_for_matter_and_others_are_never_evaluated() {
         for (effect, effect_name) in Effects::NAMED {
             if needed.without(Effects::SHADOWS).has(effect) {
                 let without = exposed(&scene, needed.without(effect));
-                assert_ne!(without, full, "{name} without {effect_name}");
+                assert!(without != full, "{name} without {effect_name}");
             }
         }
     }
@@ -114,8 +118,8 @@ fn shadows_that_are_called_for_matter() {
             bits(&shaded.radiance)
         };
         let needed = Effects::of(scene);
-        assert_eq!(shaded(needed), shaded(Effects::ALL), "{name}");
-        assert_ne!(shaded(needed), shaded(needed.without(Effects::SHADOWS)), "{name}");
+        assert!(shaded(needed) == shaded(Effects::ALL), "{name}");
+        assert!(shaded(needed) != shaded(needed.without(Effects::SHADOWS)), "{name}");
     }
 }
 

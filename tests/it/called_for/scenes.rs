@@ -10,8 +10,8 @@ struct Recipe {
     name: &'static str,
     /// Keys of the material of both meshes.
     material: &'static str,
-    /// Keys of the teapot.
-    teapot: &'static str,
+    /// Keys of both meshes.
+    meshes: &'static str,
     lights: &'static [&'static str],
     /// Switches, and what else stands at the end of the file.
     more: &'static str,
@@ -20,7 +20,7 @@ struct Recipe {
 const PLAIN: Recipe = Recipe {
     name: "ambient",
     material: "ka = [0.5, 0.25, 0.75]",
-    teapot: "",
+    meshes: "",
     lights: &["type = \"ambient\"\nambient = [0.4, 0.5, 0.6]"],
     more: "",
 };
@@ -55,14 +55,14 @@ const RECIPES: [Recipe; 12] = [
     Recipe {
         name: "Gouraud",
         material: GLOSSY,
-        teapot: "shading = \"gouraud\"",
+        meshes: "shading = \"gouraud\"",
         lights: &[LAMP],
         ..PLAIN
     },
     Recipe {
         name: "flat, one point",
         material: GLOSSY,
-        teapot: "shading = \"flat\"",
+        meshes: "shading = \"flat\"",
         lights: &[LAMP, SKY],
         more: "[switches]\nflat = \"one-point\"\n",
     },
@@ -70,7 +70,7 @@ const RECIPES: [Recipe; 12] = [
         name: "everything",
         material: "ke = [0.02, 0.01, 0.03]\nka = [0.2, 0.2, 0.2]\nks = [0.5, 0.6, 0.7]\nns = 30.0\n\
             kd_map = \"texture/checker.png\"\nfilter = \"mip\"",
-        teapot: "",
+        meshes: "",
         lights: &[
             "type = \"ambient\"\nambient = [0.4, 0.5, 0.6]",
             "type = \"directional\"\naim = [1, -2, -3]\nintensity = [0.5, 0.4, 0.3]\nshadows = true",
@@ -101,7 +101,7 @@ pub(crate) fn scenes(width: u32, height: u32) -> Vec<(&'static str, Scene)> {
 }
 
 fn text(recipe: &Recipe) -> String {
-    let Recipe { material, teapot, lights, more, name } = recipe;
+    let Recipe { material, meshes, lights, more, name } = recipe;
     let samples = if *name == "everything" { 2 } else { 1 };
     let lights: String = lights.iter().map(|light| format!("[[light]]\n{light}\n")).collect();
     format!(
@@ -110,8 +110,8 @@ fn text(recipe: &Recipe) -> String {
         [camera]\neye = [2.2, 5.2, 10.6]\ntarget = [0.25, 1.15, 0]\nup = [0, 1, 0]\n\
         fov_y_deg = 25\n\
         [[material]]\nname = \"m\"\n{material}\n\
-        [[mesh]]\nshape = {{ plane = {{ width = 60.0, depth = 60.0 }} }}\nmaterial = \"m\"\n\
-        [[mesh]]\nshape = {{ teapot = {{ segments = 16 }} }}\nmaterial = \"m\"\n{teapot}\n\
+        [[mesh]]\nshape = {{ plane = {{ width = 60.0, depth = 60.0 }} }}\nmaterial = \"m\"\n{meshes}\n\
+        [[mesh]]\nshape = {{ teapot = {{ segments = 16 }} }}\nmaterial = \"m\"\n{meshes}\n\
         {lights}{more}"
     )
 }
