@@ -23,6 +23,7 @@ pub(super) fn one_minus_cosine(a: [f64; 3], b: [f64; 3]) -> f64 {
 /// (cos θ)_+^exponent from q = 1 − cos θ; x^0 is 1 for every x, also for 0.
 ///
 /// 1 at q = 0, 0 for q ≥ 1 and a positive exponent, never above 1, and never NaN.
+#[inline]
 pub(super) fn lobe(q: f64, exponent: f64) -> f64 {
     if exponent == 0.0 {
         1.0
@@ -34,6 +35,7 @@ pub(super) fn lobe(q: f64, exponent: f64) -> f64 {
 }
 
 /// (|N|·cos θ)_+^exponent for a vector whose length was left below 1: `length` in 0…1.
+#[inline]
 pub(super) fn shortened_lobe(q: f64, length: f64, exponent: f64) -> f64 {
     if length == 1.0 {
         lobe(q, exponent)

@@ -181,7 +181,7 @@ fn turned(scene: &Scene, visible: &Visible, normal: [f64; 3]) -> [f64; 3] {
 }
 
 /// The unit vector along a mean of unit vectors; `None` where they cancelled.
-#[inline]
+#[inline(always)]
 pub(super) fn unless_cancelled(mean: [f64; 3]) -> Option<[f64; 3]> {
     if vector::squared_length(mean) < CANCELLED_SQUARED {
         return None;

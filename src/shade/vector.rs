@@ -61,13 +61,20 @@ const UNSCALED: std::ops::RangeInclusive<f64> =
     f64::from_bits((1023 - 400) << 52)..=f64::from_bits((1023 + 500) << 52);
 
 /// Measures a vector without NaN; `None` when it is zero or infinite.
-#[inline]
+#[inline(always)]
 pub(super) fn measure(a: [f64; 3]) -> Option<Measured> {
     let largest = largest_component(a);
     if UNSCALED.contains(&largest) {
         let length = squared_length(a).sqrt();
         return Some(Measured { scaled: a, scaled_length: length, length });
     }
+    measure_scaled(a, largest)
+}
+
+/// [`measure`] of what needs scaling, out of the way of what does not.
+#[cold]
+#[inline(never)]
+fn measure_scaled(a: [f64; 3], largest: f64) -> Option<Measured> {
     if largest == 0.0 || largest == f64::INFINITY {
         return None;
     }
