@@ -31,9 +31,9 @@ impl Bounds {
     pub(super) const EMPTY: Self = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
 
     pub(super) fn add(&mut self, point: [f64; 3]) {
-        for k in 0..3 {
-            self.low[k] = self.low[k].min(point[k]);
-            self.high[k] = self.high[k].max(point[k]);
+        for (k, value) in point.into_iter().enumerate() {
+            self.low[k] = self.low[k].min(value);
+            self.high[k] = self.high[k].max(value);
         }
     }
 
@@ -48,8 +48,9 @@ impl Bounds {
         let Some(way) = vector::measure(vector::sub(centre, position)) else { return false };
         let radius = vector::measure(half).map_or(0.0, |half| half.length)
             + RADIUS_SLACK * (size[0] + size[1] + size[2]);
-        // NaN and infinities fail this comparison.
-        if !(radius < way.length) || !way.length.is_finite() {
+        // NaN and infinities are not outside.
+        let is_outside = radius < way.length && way.length.is_finite();
+        if !is_outside {
             return false;
         }
         // Compare the angle of the nearest direction with the cutoff.
