@@ -75,6 +75,7 @@ impl TriangleMesh {
     }
 
     /// The three corner positions of a triangle.
+    #[inline]
     pub fn triangle(&self, id: TriangleId) -> [[f32; 3]; 3] {
         self.corners[id.index()].map(|corner| self.positions[corner as usize])
     }
@@ -85,6 +86,7 @@ impl TriangleMesh {
     }
 
     /// The three unit corner normals, or `None` when a corner lacks one.
+    #[inline]
     pub fn normals_of(&self, id: TriangleId) -> Option<[[f64; 3]; 3]> {
         let indices = self.corner_normals.get(id.index())?;
         if indices.contains(&NO_ATTRIBUTE) {
@@ -94,6 +96,7 @@ impl TriangleMesh {
     }
 
     /// The three corner texture coordinates, or `None` when a corner lacks one.
+    #[inline]
     pub fn uvs_of(&self, id: TriangleId) -> Option<[[f64; 2]; 3]> {
         let indices = self.corner_uvs.get(id.index())?;
         if indices.contains(&NO_ATTRIBUTE) {
@@ -115,6 +118,7 @@ impl TriangleMesh {
     ///
     /// Products of f32 differences stay inside the range of f64 (2^-298 … 2^256), and the vector
     /// is divided by its largest component before it is made unit, so nothing under- or overflows.
+    #[inline]
     pub fn face_normal(&self, id: TriangleId) -> [f64; 3] {
         let [a, b, c] = self.triangle(id).map(|v| v.map(f64::from));
         let e1 = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];

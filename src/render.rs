@@ -8,10 +8,12 @@ mod answerer;
 mod describe;
 mod develop;
 pub mod expose;
+mod measure;
 mod planes;
 mod progress;
 pub mod shadows;
 mod subsamples;
+mod surface_planes;
 pub mod visible;
 
 pub use accuracy::Accuracy;
@@ -19,6 +21,7 @@ pub use answerer::Answerer;
 pub use describe::describe;
 pub use develop::develop;
 pub use expose::{Exposure, expose};
+pub use measure::{EffectTime, ShadingTimes, Timing, measure};
 pub use planes::{PlaneGroup, PlaneGroups, UnknownPlane};
 pub use progress::{Progress, Unwatched};
 

@@ -41,10 +41,10 @@ use crate::scene::material::Material;
 use crate::visibility::{VisibilityBuffer, Visible};
 use coefficients::Coefficients;
 use equation::{Geometry, KernelEffects, Lighting};
-use kernel::Frame;
+use kernel::{Frame, RowKernel};
 use method::Method;
 use std::sync::Mutex;
-use watch::{Nobody, Watch};
+use watch::{Nobody, Ungated, Watch};
 use weights::weights;
 
 /// A shaded window.
@@ -97,7 +97,17 @@ pub fn count_evaluations(
     shade_rows(scene, buffer, effects, None, &|| (), Evaluations::add).1
 }
 
-/// Shades all rows, each with a watcher of its own; the watchers are added up, in any order.
+/// The picture of [`shade`], bit for bit, with every effect forced on: every surface is set up in
+/// full and every term of every light is evaluated, even where no colour, no light kind or no
+/// exponent calls for it. It shows what is saved by evaluating only what a scene calls for, and that
+/// the rest is neutral; nothing else should use it. Nothing casts a shadow.
+pub fn shade_ungated(scene: &Scene, buffer: &VisibilityBuffer) -> Vec<LinearRgb> {
+    let frame = Frame::ungated(scene);
+    let kernel = kernel::row_kernel::<Ungated>(Effects::ALL);
+    shade_frame(&frame, kernel, buffer, &|| (), |_, _| ()).0
+}
+
+/// [`shade_frame`] with the kernel for `effects`.
 fn shade_rows<'a, W: Watch + Default + Copy + Send>(
     scene: &'a Scene,
     buffer: &VisibilityBuffer,
@@ -106,16 +116,26 @@ fn shade_rows<'a, W: Watch + Default + Copy + Send>(
     done: &(dyn Fn() + Sync),
     add: fn(&mut W, W),
 ) -> (Vec<LinearRgb>, W) {
+    let frame = Frame::new(scene, effects, occlusion);
+    shade_frame(&frame, kernel::row_kernel::<W>(effects), buffer, done, add)
+}
+
+/// Shades all rows, each with a watcher of its own; the watchers are added up, in any order.
+fn shade_frame<W: Watch + Default + Copy + Send>(
+    frame: &Frame<'_>,
+    shade_row: RowKernel<W>,
+    buffer: &VisibilityBuffer,
+    done: &(dyn Fn() + Sync),
+    add: fn(&mut W, W),
+) -> (Vec<LinearRgb>, W) {
     let window = buffer.window;
     let width = window.width() as usize;
-    let frame = Frame::new(scene, effects, occlusion);
-    let shade_row = kernel::row_kernel::<W>(effects);
     let total = Mutex::new(W::default());
     let mut radiance = vec![[0.0; 3]; window.len()];
     pixel::for_each_row(&mut radiance, width, done, |row, out| {
         let mut watch = W::default();
         let visible = &buffer.visible[row * width..][..out.len()];
-        shade_row(&frame, window, window.y0() + row as u32, visible, out, &mut watch);
+        shade_row(frame, window, window.y0() + row as u32, visible, out, &mut watch);
         // A poisoned lock means that another row panicked; its panic is the one to report.
         if let Ok(mut total) = total.lock() {
             add(&mut total, watch);
@@ -192,8 +212,7 @@ pub fn terms<'a>(
             let is_smooth = method == Method::SmoothPixel;
             let geometry = kernel::geometry_at_pixel::<ALL, _>(
                 &frame,
-                pixel,
-                visible,
+                &kernel::Seen { pixel, visible, position: None },
                 is_smooth,
                 &coefficients,
                 &mut Nobody,

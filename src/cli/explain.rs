@@ -1,10 +1,12 @@
 //! `truecast explain`: what a scene is made of and which effects it calls for, and by whom.
 
+mod shares;
+
 use super::arguments::ExplainArguments;
 use super::failure::Failure;
 use super::{OK, output};
 use serde_json::json;
-use truecast::render::{Accuracy, describe};
+use truecast::render::{Accuracy, ShadingTimes, describe};
 use truecast::scene::material::Material;
 use truecast::scene::{Overrides, Scene};
 use truecast::shade;
@@ -12,14 +14,19 @@ use truecast::shade;
 pub(super) fn run(arguments: &ExplainArguments) -> Result<u8, Failure> {
     let scene = Scene::load(
         &arguments.scene,
-        &Overrides { skip_bad: arguments.skip_bad, ..Overrides::default() },
+        &Overrides {
+            skip_bad: arguments.skip_bad,
+            resolution: arguments.size,
+            ..Overrides::default()
+        },
     )?;
     output::print_warnings(&scene.warnings);
     output::print_warnings(&advice(&scene));
+    let times = arguments.measure.then(|| shares::measure(&scene));
     if arguments.json {
-        output::print_json(&document(arguments, &scene));
+        output::print_json(&document(arguments, &scene, times.as_ref()));
     } else {
-        output::print(&text(arguments, &scene));
+        output::print(&text(arguments, &scene, times.as_ref()));
     }
     Ok(OK)
 }
@@ -37,7 +44,7 @@ fn advice(scene: &Scene) -> Vec<String> {
     scene.materials.iter().filter_map(sentence).collect()
 }
 
-fn text(arguments: &ExplainArguments, scene: &Scene) -> String {
+fn text(arguments: &ExplainArguments, scene: &Scene, times: Option<&ShadingTimes>) -> String {
     let camera = &scene.camera;
     let frame = camera.resolution();
     let mut text = format!("{}\n\n", arguments.scene.display());
@@ -70,7 +77,8 @@ fn text(arguments: &ExplainArguments, scene: &Scene) -> String {
             "material {index} `{name}`: ka {ka:?}, kd {kd:?}, ks {ks:?}, ke {ke:?}, ns {ns}{unlit}\n"
         );
     }
-    text += "\neffect                on   called for by\n";
+    let heading = if times.is_some() { "share of shading  " } else { "" };
+    text += &format!("\neffect                on   {heading}called for by\n");
     for call in shade::explain(scene) {
         let by = match call.called_by.as_slice() {
             [] => "-".to_owned(),
@@ -79,8 +87,11 @@ fn text(arguments: &ExplainArguments, scene: &Scene) -> String {
             }
             callers => callers.join(", "),
         };
-        text += &format!("{:<21} {:<4} {by}\n", call.effect, if call.on { "yes" } else { "no" });
+        let share = times.map(|times| shares::column(times, call.effect)).unwrap_or_default();
+        let on = if call.on { "yes" } else { "no" };
+        text += &format!("{:<21} {on:<4} {share}{by}\n", call.effect);
     }
+    text += &times.map(|times| shares::summary(times, scene)).unwrap_or_default();
     text += &format!("\ndialect    {}\n", scene.switches.dialect);
     if let Some(table) = scene.switches.table().as_object() {
         for (name, value) in table {
@@ -91,12 +102,23 @@ fn text(arguments: &ExplainArguments, scene: &Scene) -> String {
     text
 }
 
-fn document(arguments: &ExplainArguments, scene: &Scene) -> serde_json::Value {
+fn document(
+    arguments: &ExplainArguments,
+    scene: &Scene,
+    times: Option<&ShadingTimes>,
+) -> serde_json::Value {
     let effects: Vec<_> = shade::explain(scene)
         .into_iter()
-        .map(|call| json!({ "effect": call.effect, "on": call.on, "called_by": call.called_by }))
+        .map(|call| {
+            let mut effect =
+                json!({ "effect": call.effect, "on": call.on, "called_by": call.called_by });
+            if let Some(times) = times {
+                shares::add_to_effect(times, call.effect, &mut effect);
+            }
+            effect
+        })
         .collect();
-    json!({
+    let mut document = json!({
         "schema": "truecast/explain/1",
         "scene": arguments.scene.display().to_string(),
         "picture": describe(scene, Accuracy::Exact),
@@ -121,5 +143,9 @@ fn document(arguments: &ExplainArguments, scene: &Scene) -> serde_json::Value {
         "advice": advice(scene),
         "effects": effects,
         "warnings": scene.warnings,
-    })
+    });
+    if let Some(times) = times {
+        document["shading"] = shares::document(times, scene);
+    }
+    document
 }

@@ -4,13 +4,14 @@
 //! is 0 (no surface lies at depth 0), except `stable`, which speaks of nothing as of a triangle, and
 //! `invalid`, which speaks of the background's colour too. Values are rounded to f32 once, here.
 
+use super::surface_planes::SurfacePlanes;
 use super::{Accuracy, PlaneGroup, PlaneGroups, describe};
 use crate::color::LinearRgb;
 use crate::film::{Film, Plane, Samples};
 use crate::pixel::for_each_row;
 use crate::raster::{STANDARD_HALF_WIDTH, stability};
 use crate::scene::Scene;
-use crate::shade::{Effects, doubt, doubts, surface_point};
+use crate::shade::{Effects, doubt, doubts};
 use crate::visibility::{VisibilityBuffer, Visible};
 
 /// "Nothing is visible" in id planes.
@@ -28,12 +29,13 @@ pub fn develop(
     accuracy: Accuracy,
 ) -> Film {
     let mut planes = Vec::new();
+    let mut surfaces = SurfacePlanes::new(scene, buffer, groups);
     for group in groups.iter() {
         let is_absent = group == PlaneGroup::TextureCoordinates
             && scene.mesh.uvs.is_empty()
             && groups.iter().count() > 1;
         if !is_absent {
-            let samples = fill(scene, buffer, (radiance, alpha), group);
+            let samples = fill(scene, buffer, (radiance, alpha), &mut surfaces, group);
             for (name, samples) in group.planes().iter().zip(samples) {
                 planes.push(Plane { name: (*name).to_owned(), samples });
             }
@@ -52,11 +54,9 @@ fn fill(
     scene: &Scene,
     buffer: &VisibilityBuffer,
     (radiance, alpha): (&[LinearRgb], &[f64]),
+    surfaces: &mut SurfacePlanes,
     group: PlaneGroup,
 ) -> Vec<Samples> {
-    let surface = |index: usize, visible: &Visible| {
-        surface_point(scene, buffer.window.pixel(index), visible).0
-    };
     match group {
         PlaneGroup::Color => {
             let channel =
@@ -64,24 +64,20 @@ fn fill(
             let alpha = Samples::Float(alpha.iter().map(|&share| share as f32).collect());
             vec![channel(0), channel(1), channel(2), alpha]
         }
-        PlaneGroup::Depth => floats(buffer, |_, visible| [visible.t() * scene.camera.z_per_t()]),
-        PlaneGroup::RayParameter => floats(buffer, |_, visible| [visible.t()]),
-        PlaneGroup::Position => floats(buffer, |i, visible| surface(i, visible).position),
-        PlaneGroup::FaceNormal => floats(buffer, |i, visible| surface(i, visible).face_normal),
-        PlaneGroup::ShadingNormal => {
-            floats(buffer, |i, visible| surface(i, visible).shading_normal)
-        }
-        PlaneGroup::TextureCoordinates => {
-            floats(buffer, |i, visible| surface(i, visible).uv.unwrap_or([0.0; 2]))
-        }
+        PlaneGroup::Depth => floats(buffer, |visible| [visible.t() * scene.camera.z_per_t()]),
+        PlaneGroup::RayParameter => floats(buffer, |visible| [visible.t()]),
+        PlaneGroup::Position
+        | PlaneGroup::FaceNormal
+        | PlaneGroup::ShadingNormal
+        | PlaneGroup::TextureCoordinates => surfaces.take(group),
         PlaneGroup::Barycentric => {
-            floats(buffer, |_, visible| [visible.barycentric.0[1], visible.barycentric.0[2]])
+            floats(buffer, |visible| [visible.barycentric.0[1], visible.barycentric.0[2]])
         }
         PlaneGroup::Identity => uints(buffer, NOTHING, |visible| {
             let id = visible.triangle;
             [id.get(), scene.object_of(id).0 as u32, scene.material_of(id).0 as u32]
         }),
-        PlaneGroup::Facing => floats(buffer, |_, visible| [f64::from(visible.facing.sign())]),
+        PlaneGroup::Facing => floats(buffer, |visible| [f64::from(visible.facing.sign())]),
         PlaneGroup::Cover => {
             let crossed = buffer.cover.iter().flatten().map(|cover| cover.crossed);
             vec![Samples::Uint(crossed.collect())]
@@ -110,15 +106,14 @@ fn fill(
 /// `N` float planes; 0 where nothing is visible.
 fn floats<const N: usize>(
     buffer: &VisibilityBuffer,
-    value: impl Fn(usize, &Visible) -> [f64; N] + Sync,
+    value: impl Fn(&Visible) -> [f64; N] + Sync,
 ) -> Vec<Samples> {
     let width = buffer.window.width() as usize;
     let mut pixels = vec![[0.0_f32; N]; buffer.window.len()];
     for_each_row(&mut pixels, width, &|| (), |row, pixels| {
         for (column, pixel) in pixels.iter_mut().enumerate() {
-            let index = row * width + column;
-            if let Some(visible) = &buffer.visible[index] {
-                *pixel = value(index, visible).map(|v| v as f32);
+            if let Some(visible) = &buffer.visible[row * width + column] {
+                *pixel = value(visible).map(|v| v as f32);
             }
         }
     });

@@ -15,6 +15,7 @@ use super::vector;
 pub(super) const OPPOSITE_SQUARED: f64 = 1e-24;
 
 /// 1 − cos of the angle between two unit vectors, with full relative accuracy; never negative.
+#[inline]
 pub(super) fn one_minus_cosine(a: [f64; 3], b: [f64; 3]) -> f64 {
     0.5 * vector::squared_length(vector::sub(a, b))
 }
@@ -22,6 +23,7 @@ pub(super) fn one_minus_cosine(a: [f64; 3], b: [f64; 3]) -> f64 {
 /// (cos θ)_+^exponent from q = 1 − cos θ; x^0 is 1 for every x, also for 0.
 ///
 /// 1 at q = 0, 0 for q ≥ 1 and a positive exponent, never above 1, and never NaN.
+#[inline]
 pub(super) fn lobe(q: f64, exponent: f64) -> f64 {
     if exponent == 0.0 {
         1.0
@@ -33,6 +35,7 @@ pub(super) fn lobe(q: f64, exponent: f64) -> f64 {
 }
 
 /// (|N|·cos θ)_+^exponent for a vector whose length was left below 1: `length` in 0…1.
+#[inline]
 pub(super) fn shortened_lobe(q: f64, length: f64, exponent: f64) -> f64 {
     if length == 1.0 {
         lobe(q, exponent)
@@ -46,6 +49,7 @@ pub(super) fn shortened_lobe(q: f64, length: f64, exponent: f64) -> f64 {
 }
 
 /// H, the unit vector halfway between two unit vectors; `None` where they are opposite.
+#[inline]
 pub fn halfway(l: [f64; 3], v: [f64; 3]) -> Option<[f64; 3]> {
     let sum = vector::add(l, v);
     let squared = vector::squared_length(sum);

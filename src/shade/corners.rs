@@ -5,8 +5,7 @@
 //! Sources: Gouraud, "Continuous Shading of Curved Surfaces" (1971), by way of Curless, "Shading"
 //! and IIT, "Gouraud Surface Rendering"; OpenGL's provoking vertex.
 
-use super::coefficients::Coefficients;
-use super::equation::{Geometry, KernelEffects, Lighting, radiance_of};
+use super::equation::Geometry;
 use super::kernel::Frame;
 use super::surface;
 use super::watch::Watch;
@@ -67,16 +66,4 @@ pub(super) fn at_centroid<W: Watch>(
 fn lit_point(frame: &Frame<'_>, position: [f64; 3], normal: [f64; 3]) -> Geometry {
     let to_eye = surface::to_eye_from(frame.scene, position);
     Geometry { position, to_eye, normal, normal_length: 1.0, mixture: None }
-}
-
-/// The radiance at such a point.
-pub(super) fn lit<const E: u8, W: Watch>(
-    frame: &Frame<'_>,
-    coefficients: &Coefficients,
-    point: &Geometry,
-    lighting: Lighting<'_>,
-    watch: &mut W,
-) -> LinearRgb {
-    let point = frame.sees(coefficients, const { KernelEffects(E) }).then_some(point);
-    radiance_of::<E, W>(frame, coefficients, point, lighting, watch)
 }

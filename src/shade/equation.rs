@@ -158,7 +158,7 @@ fn light_up<const E: u8, W: Watch>(
     } else {
         [0.0; 3]
     };
-    let is_directed = !is_black(diffuse) || !is_black(specular);
+    let is_directed = W::UNGATED || !is_black(diffuse) || !is_black(specular);
     let fades_ambient = light.fades_ambient && !is_black(term.ambient);
     if !is_directed && !fades_ambient {
         return;
@@ -218,7 +218,7 @@ fn light_up<const E: u8, W: Watch>(
     n_dot_l *= geometry.normal_length;
     term.n_dot_l = Some(n_dot_l);
     let shines = effects.has(KernelEffects::SPECULAR)
-        && !is_black(specular)
+        && (W::UNGATED || !is_black(specular))
         && match rules.backlit_specular {
             BacklitSpecular::DarkUpTo => n_dot_l > 0.0,
             BacklitSpecular::DarkBelow => n_dot_l >= 0.0,
@@ -265,7 +265,7 @@ fn light_up<const E: u8, W: Watch>(
     term.outcome = Outcome::Lit;
 
     // Reflect: every number is positive from here on, or a colour channel's 0 times a finite one.
-    if !is_black(diffuse) && n_dot_l > 0.0 {
+    if (W::UNGATED || !is_black(diffuse)) && n_dot_l > 0.0 {
         watch.evaluated(Effects::DIFFUSE);
         term.diffuse = diffuse.map(|color| factor * color * n_dot_l);
     }
@@ -298,7 +298,7 @@ fn light_up_from_all_around<W: Watch>(
     term: &mut LightTerm,
     watch: &mut W,
 ) {
-    if is_black(coefficients.diffuse) {
+    if !W::UNGATED && is_black(coefficients.diffuse) {
         return;
     }
     if geometry.normal == [0.0; 3] {

@@ -87,6 +87,17 @@ impl<'a> Frame<'a> {
     pub(super) fn asker(&self) -> RowAsker<'a> {
         self.occlusion.filter(|_| self.shadowed).map(|make| RefCell::new(make()))
     }
+
+    /// A frame for [`Watch::UNGATED`]: every surface is set up, every light is asked everywhere.
+    pub(super) fn ungated(scene: &'a Scene) -> Self {
+        let lights = lights::prepare_ungated(&scene.lights, scene.switches.rules());
+        Self {
+            lights,
+            directed: true,
+            selects_lights: false,
+            ..Self::new(scene, Effects::ALL, None)
+        }
+    }
 }
 
 /// Shades one row of a window: `visible` and `radiance` hold its pixels.
@@ -127,16 +138,20 @@ fn shade_row<const E: u8, W: Watch>(
     let mut memo = Memo::default();
     let asker = frame.asker();
     let mut reaches = vec![true; if frame.selects_lights { frame.lights.len() } else { 0 }];
+    let mut positions = [None; RUN];
     let runs = visible.chunks(RUN).zip(radiance.chunks_mut(RUN));
     for (first, (visible, radiance)) in (window.x0()..).step_by(RUN).zip(runs) {
         if frame.selects_lights {
-            reach::mark(&frame.lights, &bounds(frame, first, y, visible), &mut reaches);
+            let bounds = bounds(frame, first, y, visible, &mut positions);
+            reach::mark(&frame.lights, &bounds, &mut reaches);
         }
-        for ((x, visible), out) in (first..).zip(visible).zip(radiance) {
+        let pixels = (first..).zip(&positions).zip(visible).zip(radiance);
+        for (((x, position), visible), out) in pixels {
             *out = match visible {
                 Some(visible) => {
                     let pixel = Pixel { x, y };
-                    shade_pixel::<E, W>(frame, pixel, visible, (&reaches, &asker), &mut memo, watch)
+                    let seen = Seen { pixel, visible, position: *position };
+                    shade_pixel::<E, W>(frame, &seen, (&reaches, &asker), &mut memo, watch)
                 }
                 None => frame.scene.background,
             };
@@ -157,16 +172,26 @@ pub(super) fn is_hidden(
     asker.as_ref().is_some_and(|asker| (*asker.borrow_mut())(pixel, visible, light))
 }
 
-/// A box around every point of a run at which the equation may be evaluated. Colours that are
-/// shared by the pixels of a triangle are evaluated at its corners and its centroid.
-fn bounds(frame: &Frame<'_>, first: u32, y: u32, run: &[Option<Visible>]) -> Bounds {
+/// A box around every point of a run at which the equation may be evaluated, and the world
+/// positions that were found on the way. Colours that are shared by the pixels of a triangle are
+/// evaluated at its corners and its centroid.
+fn bounds(
+    frame: &Frame<'_>,
+    first: u32,
+    y: u32,
+    run: &[Option<Visible>],
+    positions: &mut [Option<[f64; 3]>; RUN],
+) -> Bounds {
     let scene = frame.scene;
     let mut bounds = Bounds::EMPTY;
-    for (x, visible) in (first..).zip(run) {
+    for ((x, visible), known) in (first..).zip(run).zip(positions) {
+        *known = None;
         let Some(visible) = visible else { continue };
         match frame.methods[scene.object_of(visible.triangle).0] {
             Method::SmoothPixel | Method::FlatPixel => {
-                bounds.add(surface::position(scene, Pixel { x, y }, visible));
+                let position = surface::position(scene, Pixel { x, y }, visible);
+                bounds.add(position);
+                *known = Some(position);
             }
             Method::SmoothCorners | Method::FlatCorners | Method::Centroid | Method::LastCorner => {
                 let corners = scene.mesh.triangle(visible.triangle);
@@ -178,15 +203,23 @@ fn bounds(frame: &Frame<'_>, first: u32, y: u32, run: &[Option<Visible>]) -> Bou
     bounds
 }
 
+/// What is visible at a pixel.
+pub(super) struct Seen<'a> {
+    pub(super) pixel: Pixel,
+    pub(super) visible: &'a Visible,
+    /// Its world position, where it is known already.
+    pub(super) position: Option<[f64; 3]>,
+}
+
 fn shade_pixel<const E: u8, W: Watch>(
     frame: &Frame<'_>,
-    pixel: Pixel,
-    visible: &Visible,
+    seen: &Seen<'_>,
     (reaches, asker): (&[bool], &RowAsker<'_>),
     memo: &mut Memo,
     watch: &mut W,
 ) -> LinearRgb {
-    let scene = frame.scene;
+    let effects = const { KernelEffects(E) };
+    let (scene, pixel, visible) = (frame.scene, seen.pixel, seen.visible);
     let (object, _) = scene.object_of(visible.triangle);
     let (_, material) = scene.material_of(visible.triangle);
     let coefficients = coefficients::at_pixel(frame, pixel, visible, material, watch);
@@ -200,8 +233,7 @@ fn shade_pixel<const E: u8, W: Watch>(
         method @ (Method::SmoothPixel | Method::FlatPixel) => {
             let geometry = geometry_at_pixel::<E, W>(
                 frame,
-                pixel,
-                visible,
+                seen,
                 method == Method::SmoothPixel,
                 &coefficients,
                 watch,
@@ -209,22 +241,25 @@ fn shade_pixel<const E: u8, W: Watch>(
             radiance_of::<E, W>(frame, &coefficients, geometry.as_ref(), lighting, watch)
         }
         method @ (Method::SmoothCorners | Method::FlatCorners) => {
-            let is_smooth = method == Method::SmoothCorners;
+            let is_smooth = method == Method::SmoothCorners && effects.has(KernelEffects::NORMALS);
             let colors = memo.colors(visible, depends_on_pixel, || {
                 [0, 1, 2].map(|corner| {
-                    let point = corners::at_corner(frame, visible, corner, is_smooth, watch);
-                    corners::lit::<E, W>(frame, &coefficients, &point, lighting, watch)
+                    let sees = frame.sees::<W>(&coefficients, effects);
+                    let point =
+                        sees.then(|| corners::at_corner(frame, visible, corner, is_smooth, watch));
+                    radiance_of::<E, W>(frame, &coefficients, point.as_ref(), lighting, watch)
                 })
             });
             mix_colors(weights(scene, visible, watch), colors)
         }
         method @ (Method::Centroid | Method::LastCorner) => {
             memo.colors(visible, depends_on_pixel, || {
-                let point = match method {
+                let is_smooth = effects.has(KernelEffects::NORMALS);
+                let point = frame.sees::<W>(&coefficients, effects).then(|| match method {
                     Method::Centroid => corners::at_centroid(frame, visible, watch),
-                    _ => corners::at_corner(frame, visible, 2, true, watch),
-                };
-                [corners::lit::<E, W>(frame, &coefficients, &point, lighting, watch); 3]
+                    _ => corners::at_corner(frame, visible, 2, is_smooth, watch),
+                });
+                [radiance_of::<E, W>(frame, &coefficients, point.as_ref(), lighting, watch); 3]
             })[0]
         }
         Method::VertexColors => [0.0; 3],
@@ -251,15 +286,14 @@ pub(super) fn unlit_color<W: Watch>(
 /// The point that is visible at a pixel as lights see it; `None` where none has a direction.
 pub(super) fn geometry_at_pixel<const E: u8, W: Watch>(
     frame: &Frame<'_>,
-    pixel: Pixel,
-    visible: &Visible,
+    seen: &Seen<'_>,
     is_smooth: bool,
     coefficients: &Coefficients,
     watch: &mut W,
 ) -> Option<Geometry> {
     let effects = const { KernelEffects(E) };
-    let (scene, rules) = (frame.scene, frame.rules);
-    if !frame.sees(coefficients, effects) {
+    let (scene, rules, pixel, visible) = (frame.scene, frame.rules, seen.pixel, seen.visible);
+    if !frame.sees::<W>(coefficients, effects) {
         return None;
     }
     let is_smooth = is_smooth && effects.has(KernelEffects::NORMALS);
@@ -275,7 +309,7 @@ pub(super) fn geometry_at_pixel<const E: u8, W: Watch>(
     });
     Some(Geometry {
         position: if effects.has(KernelEffects::POSITIONAL) {
-            surface::position(scene, pixel, visible)
+            seen.position.unwrap_or_else(|| surface::position(scene, pixel, visible))
         } else {
             [0.0; 3]
         },
@@ -294,8 +328,9 @@ pub(super) fn geometry_at_pixel<const E: u8, W: Watch>(
 
 impl Frame<'_> {
     /// Whether some light's direction matters to a surface with these coefficients.
-    pub(super) fn sees(&self, coefficients: &Coefficients, effects: KernelEffects) -> bool {
-        let reflects = !is_black(coefficients.diffuse)
+    fn sees<W: Watch>(&self, coefficients: &Coefficients, effects: KernelEffects) -> bool {
+        let reflects = W::UNGATED
+            || !is_black(coefficients.diffuse)
             || effects.has(KernelEffects::SPECULAR) && !is_black(coefficients.specular)
             || self.rules.attenuate_ambient && !is_black(coefficients.ambient);
         self.directed && reflects

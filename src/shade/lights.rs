@@ -85,6 +85,22 @@ pub(super) fn prepare(lights: &[Light], rules: &Rules, effects: Effects) -> Vec<
         .collect()
 }
 
+/// All of the scene's lights with all of their parts, black or not.
+pub(super) fn prepare_ungated(lights: &[Light], rules: &Rules) -> Vec<PreparedLight> {
+    let origin = |light: &Light| match light {
+        Light::Hemisphere(hemisphere) => Origin::Hemisphere(*hemisphere),
+        light => origin_of(light, Effects::ALL),
+    };
+    let lights = lights.iter().enumerate();
+    lights
+        .map(|(index, light)| PreparedLight {
+            origin: origin(light),
+            shadows: false,
+            ..prepare_light(index, light, rules, Effects::ALL)
+        })
+        .collect()
+}
+
 fn prepare_light(index: usize, light: &Light, rules: &Rules, effects: Effects) -> PreparedLight {
     let (colors, kind) = match light {
         Light::Hemisphere(hemisphere) => {
@@ -177,6 +193,7 @@ fn largest_squared_chord(cutoff_deg: f64) -> f64 {
 
 impl Cone {
     /// Whether the unit direction `to_light` lies inside or on the rim.
+    #[inline]
     pub(super) fn contains(&self, to_light: [f64; 3]) -> bool {
         match self.largest_squared_chord {
             // 2(1 − L·S) is |L − S|².
@@ -196,11 +213,13 @@ impl Cone {
 
 /// a + b·r + c·r² by Horner's rule, for r > 0: c·r² first would over- or underflow where the sum
 /// does not. Never NaN; infinite or 0 only beyond the range of f64.
+#[inline]
 pub(super) fn attenuation_denominator([a, b, c]: [f64; 3], r: f64) -> f64 {
     a + r * (b + c * r)
 }
 
 /// Whether a colour is 0 in every channel.
+#[inline]
 pub(super) fn is_black(color: LinearRgb) -> bool {
     color == [0.0; 3]
 }

@@ -46,6 +46,7 @@ impl Bounds {
         let Some(way) = vector::measure(vector::sub(centre, position)) else { return false };
         let radius = vector::measure(half).map_or(0.0, |half| half.length)
             + RADIUS_SLACK * (size[0] + size[1] + size[2]);
+        // NaN and infinities are not outside.
         let is_outside = radius < way.length && way.length.is_finite();
         if !is_outside {
             return false;

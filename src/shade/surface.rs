@@ -64,6 +64,7 @@ pub(super) struct Normal {
 }
 
 /// The direction of a pixel's ray, exact in f64 by the camera's lattice, not unit.
+#[inline]
 fn ray_direction(scene: &Scene, pixel: Pixel) -> [f64; 3] {
     let camera = &scene.camera;
     let ([x, y], d0, dx, dy) = (pixel.sample(), camera.d0(), camera.dx(), camera.dy());
@@ -71,6 +72,7 @@ fn ray_direction(scene: &Scene, pixel: Pixel) -> [f64; 3] {
 }
 
 /// V at a pixel: the unit vector against its ray, or against the view axis for a distant viewer.
+#[inline]
 pub(super) fn to_eye(scene: &Scene, pixel: Pixel) -> [f64; 3] {
     if scene.switches.rules().distant_viewer {
         return scene.camera.axis().map(|c| -c);
@@ -95,6 +97,7 @@ pub(super) fn to_eye_from(scene: &Scene, point: [f64; 3]) -> [f64; 3] {
 /// triangle, v0 + b1(v1 − v0) + b2(v2 − v0) by the rounding of v0 and by the weights' 2^-48 of the
 /// triangle's size. The ray wins on a floor of 1e8 units seen from above, the triangle wins on a
 /// small mesh seen from afar, or where t is known only coarsely.
+#[inline]
 pub(super) fn position(scene: &Scene, pixel: Pixel, visible: &Visible) -> [f64; 3] {
     let (eye, d, t) = (scene.camera.eye(), ray_direction(scene, pixel), visible.t());
     let [v0, v1, v2] = scene.mesh.triangle(visible.triangle).map(|v| v.map(f64::from));
@@ -168,6 +171,7 @@ fn face_normal<W: Watch>(scene: &Scene, triangle: TriangleId, watch: &mut W) -> 
     Normal { unit, length: 1.0 }
 }
 
+#[inline]
 fn turned(scene: &Scene, visible: &Visible, normal: [f64; 3]) -> [f64; 3] {
     let (_, object) = scene.object_of(visible.triangle);
     match (object.sides, visible.facing) {
@@ -177,6 +181,7 @@ fn turned(scene: &Scene, visible: &Visible, normal: [f64; 3]) -> [f64; 3] {
 }
 
 /// The unit vector along a mean of unit vectors; `None` where they cancelled.
+#[inline(always)]
 pub(super) fn unless_cancelled(mean: [f64; 3]) -> Option<[f64; 3]> {
     if vector::squared_length(mean) < CANCELLED_SQUARED {
         return None;

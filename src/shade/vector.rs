@@ -1,36 +1,43 @@
 //! Three-vectors of f64 as shading needs them: no allocation, no fused operation.
 
 /// a − b.
+#[inline]
 pub(super) fn sub(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 /// a + b.
+#[inline]
 pub(super) fn add(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
 /// k·a.
+#[inline]
 pub(super) fn scaled(a: [f64; 3], k: f64) -> [f64; 3] {
     a.map(|c| c * k)
 }
 
 /// a · b, summed from x to z.
+#[inline]
 pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
 /// a × b.
+#[inline]
 pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
     [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
 }
 
 /// |a|², which under- and overflows; for vectors of length about 1.
+#[inline]
 pub(super) fn squared_length(a: [f64; 3]) -> f64 {
     dot(a, a)
 }
 
 /// max |a_i|.
+#[inline]
 pub(super) fn largest_component(a: [f64; 3]) -> f64 {
     a.iter().fold(0.0_f64, |m, c| m.max(c.abs()))
 }
@@ -54,12 +61,20 @@ const UNSCALED: std::ops::RangeInclusive<f64> =
     f64::from_bits((1023 - 400) << 52)..=f64::from_bits((1023 + 500) << 52);
 
 /// Measures a vector without NaN; `None` when it is zero or infinite.
+#[inline(always)]
 pub(super) fn measure(a: [f64; 3]) -> Option<Measured> {
     let largest = largest_component(a);
     if UNSCALED.contains(&largest) {
         let length = squared_length(a).sqrt();
         return Some(Measured { scaled: a, scaled_length: length, length });
     }
+    measure_scaled(a, largest)
+}
+
+/// [`measure`] of what needs scaling, out of the way of what does not.
+#[cold]
+#[inline(never)]
+fn measure_scaled(a: [f64; 3], largest: f64) -> Option<Measured> {
     if largest == 0.0 || largest == f64::INFINITY {
         return None;
     }
@@ -73,12 +88,14 @@ pub(super) fn measure(a: [f64; 3]) -> Option<Measured> {
 
 impl Measured {
     /// The unit vector.
+    #[inline]
     pub(super) fn unit(self) -> [f64; 3] {
         self.scaled.map(|c| c / self.scaled_length)
     }
 }
 
 /// The unit vector along `a`; `None` when `a` is zero or infinite.
+#[inline]
 pub(super) fn unit(a: [f64; 3]) -> Option<[f64; 3]> {
     measure(a).map(Measured::unit)
 }

@@ -28,6 +28,8 @@ pub(super) enum Note {
 
 /// What the kernel tells; every default does nothing.
 pub(super) trait Watch {
+    /// Whether terms are evaluated that no colour calls for.
+    const UNGATED: bool = false;
     /// A doubtful case.
     #[inline(always)]
     fn note(&mut self, _note: Note) {}
@@ -100,6 +102,14 @@ impl Watch for Notes {
 pub(super) struct Nobody;
 
 impl Watch for Nobody {}
+
+/// Nobody looks on, and no term is left out for want of colour.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Ungated;
+
+impl Watch for Ungated {
+    const UNGATED: bool = true;
+}
 
 /// How often the term of each effect was computed.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -3,7 +3,7 @@
 
 mod extremes;
 mod lights;
-mod neutrality;
+pub(crate) mod neutrality;
 mod normals;
 mod reflection;
 mod stage;

@@ -2,6 +2,8 @@
 
 // The arbiter against golden images, hand values and its own undiscarded self.
 mod arbiter;
+// Only the effects that a scene calls for: neutral, uncounted, measured.
+mod called_for;
 // The ray caster on golden and hard scenes: all build presets, tile sizes, threads.
 mod cast;
 // The hard cases by their names, through every configuration and before the arbiter.

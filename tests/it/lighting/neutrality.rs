@@ -1,5 +1,5 @@
-//! What must not change a bit: effects that a scene does not call for, the way a pixel is asked
-//! for, and the threads that shade it.
+//! What must not change a bit: the way a pixel is asked for, and the threads that shade it. Effects
+//! that a scene does not call for are the subject of `called_for`, with these scenes and more.
 
 use super::stage::{
     ambient, bits, colors, directional, floor, hemisphere, look, octahedron, point,
@@ -39,7 +39,7 @@ pub(super) fn busy_scene() -> Scene {
 }
 
 /// Scenes that call for few, other, or all effects, each by name.
-fn scenes() -> Vec<(&'static str, Scene)> {
+pub(crate) fn scenes() -> Vec<(&'static str, Scene)> {
     let with = |mut scene: Scene, material: Material, lights: Vec<Light>| {
         scene.materials = vec![material];
         scene.lights = lights;
@@ -77,39 +77,6 @@ fn scenes() -> Vec<(&'static str, Scene)> {
         ("wide hard spot", with(floor(), grey(), vec![Light::Spot(sideways)])),
         ("everything", busy_scene()),
     ]
-}
-
-#[test]
-fn effects_that_are_not_called_for_change_no_bit() {
-    for (name, scene) in scenes() {
-        let buffer = look(&scene);
-        assert!(buffer.covered_pixels() > 50, "{name}");
-        let needed = Effects::of(&scene);
-        let reference = shade::shade(&scene, &buffer, Effects::ALL, &|| ());
-        let supersets = Effects::NAMED.map(|(extra, _)| needed.with(extra));
-        for effects in supersets.into_iter().chain([needed]) {
-            let shaded = shade::shade(&scene, &buffer, effects, &|| ());
-            assert_eq!(bits(&shaded.radiance), bits(&reference.radiance), "{name}: {effects:?}");
-            assert_eq!(shaded.notes, reference.notes, "{name}: {effects:?}");
-        }
-    }
-}
-
-#[test]
-fn effects_that_are_called_for_matter_and_others_are_never_evaluated() {
-    for (name, scene) in scenes() {
-        let buffer = look(&scene);
-        let needed = Effects::of(&scene);
-        let counts = shade::count_evaluations(&scene, &buffer, needed);
-        assert_eq!(counts.evaluated(), needed, "{name}: {counts:?}");
-        let full = bits(&shade::shade(&scene, &buffer, needed, &|| ()).radiance);
-        for (effect, effect_name) in Effects::NAMED {
-            if needed.has(effect) {
-                let without = shade::shade(&scene, &buffer, needed.without(effect), &|| ());
-                assert_ne!(bits(&without.radiance), full, "{name} without {effect_name}");
-            }
-        }
-    }
 }
 
 #[test]
