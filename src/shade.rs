@@ -11,6 +11,7 @@ mod coefficients;
 mod corners;
 pub mod effects;
 mod equation;
+mod flat_faults;
 pub mod footprint;
 pub mod hemisphere;
 mod kernel;
@@ -27,6 +28,7 @@ mod weights;
 
 pub use calls::{Call, explain};
 pub use effects::Effects;
+pub use flat_faults::{FlatFault, flat_faults};
 pub use kernel::Occlusion;
 pub use surface::{SurfacePoint, surface_point};
 pub use terms::{LightTerm, Outcome, Terms};

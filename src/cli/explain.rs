@@ -81,6 +81,11 @@ fn text(arguments: &ExplainArguments, scene: &Scene) -> String {
         };
         text += &format!("{:<21} {:<4} {by}\n", call.effect, if call.on { "yes" } else { "no" });
     }
+    for (object, faults) in shade::flat_faults(scene) {
+        let name = &scene.objects[object].name;
+        let faults: Vec<_> = faults.iter().map(ToString::to_string).collect();
+        text += &format!("\nflat shading of mesh {object} `{name}`: {}\n", faults.join("; "));
+    }
     text += &format!("\ndialect    {}\n", scene.switches.dialect);
     if let Some(table) = scene.switches.table().as_object() {
         for (name, value) in table {
@@ -119,6 +124,10 @@ fn document(arguments: &ExplainArguments, scene: &Scene) -> serde_json::Value {
         })).collect::<Vec<_>>(),
         "lights": scene.light_names,
         "advice": advice(scene),
+        "flat_faults": shade::flat_faults(scene).iter().map(|(object, faults)| json!({
+            "mesh": object,
+            "faults": faults.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        })).collect::<Vec<_>>(),
         "effects": effects,
         "warnings": scene.warnings,
     })
