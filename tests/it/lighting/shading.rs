@@ -87,6 +87,28 @@ fn a41_the_conditions_of_flat_shading_are_told() {
 }
 
 #[test]
+fn a41_explain_says_which_condition_fails() {
+    let folder = tempfile::TempDir::new().unwrap();
+    let path = folder.path().join("t.toml");
+    let text = "version = 1\n[image]\nwidth = 8\nheight = 8\n[camera]\neye = [0, 0, 5]\n\
+                target = [0, 0, 0]\nup = [0, 1, 0]\nfov_y_deg = 45\n[[mesh]]\n\
+                shape = { uv_sphere = {} }\nshading = \"flat\"\n[[light]]\nname = \"lamp\"\n\
+                type = \"point\"\nposition = [0, 3, 3]\nintensity = [1, 1, 1]\n";
+    std::fs::write(&path, text).unwrap();
+    let explain = |more: &[&str]| {
+        let mut command = assert_cmd::Command::new(env!("CARGO_BIN_EXE_truecast"));
+        let output = command.arg("explain").arg(&path).args(more).output().unwrap();
+        assert!(output.status.success());
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let expected = "it stands for a curved surface; the light `lamp` is not infinitely far";
+    assert!(explain(&[]).contains(&format!("flat shading of mesh 0 `uv_sphere`: {expected}\n")));
+    let document: serde_json::Value = serde_json::from_str(&explain(&["--json"])).unwrap();
+    let faults = &document["flat_faults"][0]["faults"];
+    assert_eq!(faults.as_array().unwrap().len(), 2, "{faults}");
+}
+
+#[test]
 fn a42_gouraud_by_rays_is_gouraud_by_the_rasterizer() {
     let mut scene = super::neutrality::busy_scene();
     scene.objects[0].shading = Shading::Gouraud;

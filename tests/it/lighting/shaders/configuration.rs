@@ -321,7 +321,8 @@ impl Configuration {
     }
 
     /// Fills in what the shaders take from the application.
-    pub(super) fn set_model_view(&mut self, scene: &Scene) {
-        self.uniforms.model_view = gl::product(&gl::view_matrix(&scene.camera), &self.model);
+    pub(super) fn set_model_view(&mut self) {
+        let view = gl::look_at(self.eye, self.target, self.up);
+        self.uniforms.model_view = gl::product(&view, &self.model);
     }
 }

@@ -13,22 +13,27 @@ pub(super) struct Doubts {
     pub(super) gate: f64,
     /// Smallest length of a sum of unit vectors that was made unit.
     pub(super) length: f64,
+    /// Whether a number whose sign decided was negative.
+    pub(super) turned_away: bool,
 }
 
 impl Doubts {
-    pub(super) const NONE: Self = Self { gate: f64::INFINITY, length: f64::INFINITY };
+    pub(super) const NONE: Self =
+        Self { gate: f64::INFINITY, length: f64::INFINITY, turned_away: false };
 
     /// The number, noted as one whose sign decides.
     pub(super) fn gate(&mut self, number: f64) -> f64 {
         if number != 0.0 {
             self.gate = self.gate.min(number.abs());
         }
+        self.turned_away |= number < 0.0;
         number
     }
 
     /// As [`Self::gate`], for a number that rounding may have made 0.
     pub(super) fn rounded_gate(&mut self, number: f64) -> f64 {
         self.gate = self.gate.min(number.abs());
+        self.turned_away |= number < 0.0;
         number
     }
 
@@ -81,12 +86,12 @@ pub(super) fn product(a: &Mat4, b: &Mat4) -> Mat4 {
     std::array::from_fn(|i| std::array::from_fn(|j| (0..4).map(|k| a[i][k] * b[k][j]).sum()))
 }
 
-/// World to eye space: x right, y up, looking along −z.
-pub(super) fn view_matrix(camera: &PinholeCamera) -> Mat4 {
-    let forward = camera.axis();
-    let right = normalize(camera.dx());
+/// `lookAt(eye, at, up)`: world to eye space, x right, y up, looking along −z.
+pub(super) fn look_at(eye: V3, at: V3, up: V3) -> Mat4 {
+    let forward = normalize(sub(at, eye));
+    let right = normalize(cross(forward, up));
     let up = cross(right, forward);
-    let row = |r: V3| [r[0], r[1], r[2], -dot(r, camera.eye())];
+    let row = |r: V3| [r[0], r[1], r[2], -dot(r, eye)];
     [row(right), row(up), row(minus(forward)), [0.0, 0.0, 0.0, 1.0]]
 }
 
