@@ -10,6 +10,7 @@ mod configuration;
 mod cs315;
 mod curless;
 mod gl;
+mod scene_text;
 
 use super::stage::V3;
 use crate::support::rays::Random;
