@@ -92,6 +92,11 @@ fn text(arguments: &ExplainArguments, scene: &Scene, times: Option<&ShadingTimes
         text += &format!("{:<21} {on:<4} {share}{by}\n", call.effect);
     }
     text += &times.map(|times| shares::summary(times, scene)).unwrap_or_default();
+    for (object, faults) in shade::flat_faults(scene) {
+        let name = &scene.objects[object].name;
+        let faults: Vec<_> = faults.iter().map(ToString::to_string).collect();
+        text += &format!("\nflat shading of mesh {object} `{name}`: {}\n", faults.join("; "));
+    }
     text += &format!("\ndialect    {}\n", scene.switches.dialect);
     if let Some(table) = scene.switches.table().as_object() {
         for (name, value) in table {
@@ -141,6 +146,10 @@ fn document(
         })).collect::<Vec<_>>(),
         "lights": scene.light_names,
         "advice": advice(scene),
+        "flat_faults": shade::flat_faults(scene).iter().map(|(object, faults)| json!({
+            "mesh": object,
+            "faults": faults.iter().map(ToString::to_string).collect::<Vec<_>>(),
+        })).collect::<Vec<_>>(),
         "effects": effects,
         "warnings": scene.warnings,
     });

@@ -1,12 +1,24 @@
-//! The lighting models of the texts, row by row: A01–A04 here, A05–A10 in `reflection`,
-//! A11–A16 in `lights`; what must not change a bit in `neutrality`, ends of ranges in `extremes`.
+//! The systems of the texts, row by row: A01–A04 here, A05–A10 in `reflection`, A11–A16 in
+//! `lights`, A17–A18 in `hemisphere`, A20–A35 in `surfaces`, A40–A56 in `shading`, `perspective`,
+//! `tessellation` and `pipelines`, A60–A65 in `shaders`; which are tests at all in `names`. Every
+//! switch by what it changes in `switches`; what must not change a bit in `neutrality`, ends of
+//! ranges in `extremes`.
 
 mod extremes;
+mod hemisphere;
 mod lights;
+mod names;
 pub(crate) mod neutrality;
 mod normals;
+mod perspective;
+mod pipelines;
 mod reflection;
+mod shaders;
+mod shading;
 mod stage;
+mod surfaces;
+mod switches;
+mod tessellation;
 
 use stage::{
     V3, ambient, bits, directional, floor, look, octahedron, picture, point, radiance_at, spot,

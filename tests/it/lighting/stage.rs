@@ -1,14 +1,16 @@
 //! Small scenes on a camera of whole numbers, and a ray test of the tests' own.
 
+use truecast::accel::BuildPreset;
 use truecast::mesh::{Barycentric, TriangleId};
 use truecast::pixel::{Pixel, Resolution};
+use truecast::render::{Answerer, Unwatched, VisibilityPath};
 use truecast::scene::Scene;
 use truecast::scene::camera::PinholeCamera;
 use truecast::scene::light::{
     AmbientLight, DirectionalLight, HemisphereLight, Light, LightColors, PointLight, SpotLight,
 };
 use truecast::shade::{self, Effects};
-use truecast::visibility::{Facing, Level, LevelCounts, VisibilityBuffer, Visible};
+use truecast::visibility::{Counting, Facing, Level, LevelCounts, VisibilityBuffer, Visible};
 
 /// Half the side of the picture: pixel (HALF + x, HALF − y) looks at the point (x, y, 0).
 pub(super) const HALF: u32 = 8;
@@ -153,6 +155,19 @@ pub(super) fn look_at(scene: &Scene, pixel: Pixel) -> Option<Visible> {
         }
     }
     nearest
+}
+
+/// What one of the program's own paths sees, with the counts of crossed triangles.
+pub(super) fn answer(scene: &Scene, path: VisibilityPath) -> VisibilityBuffer {
+    let window = scene.camera.resolution().window();
+    let answerer = Answerer::new(scene, path, BuildPreset::Medium, &Unwatched);
+    answerer.see(scene, window, Counting::All, &Unwatched)
+}
+
+/// The program's picture: [`answer`] by rays, shaded.
+pub(super) fn program_picture(scene: &Scene) -> Vec<V3> {
+    let buffer = answer(scene, VisibilityPath::Cast);
+    shade::shade(scene, &buffer, Effects::of(scene), &|| ()).radiance
 }
 
 /// A point of a triangle, by weights chosen by hand; t is that of the plane z = 0.
