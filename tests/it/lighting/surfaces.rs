@@ -1,4 +1,4 @@
-//! Colours and normals of surfaces: vertex colours (A20), nine coefficients (A23), the normals of
+//! Colours and normals of surfaces: unlit ones (A19), vertex colours (A20), nine coefficients (A23), the normals of
 //! triangles, spheres and quads (A30–A32), transformed normals (A34), and two sides (A35).
 
 use super::stage::{
@@ -32,6 +32,27 @@ fn load(obj: &str, head: &str, keys: &str) -> Scene {
          target = [0, 0, 0]\nup = [0, 1, 0]\nfov_y_deg = 60\n[[mesh]]\nfile = \"m.obj\"\n{keys}\n"
     );
     Scene::from_toml(&text, Path::new("t.toml"), folder.path(), &Overrides::default()).unwrap()
+}
+
+#[test]
+fn a19_a_surface_without_lighting_is_its_colour_under_any_lights() {
+    let mut scene = super::neutrality::busy_scene();
+    let kd = [0.3, 0.6, 1.2];
+    for material in &mut scene.materials {
+        *material = Material { kd, unlit: true, ..material.clone() };
+    }
+    let buffer = answer(&scene, VisibilityPath::Cast);
+    let every_light = scene.lights.clone();
+    for lights in [&every_light[..], &every_light[..1], &[]] {
+        scene.lights = lights.to_vec();
+        for shading in [Shading::Phong, Shading::Gouraud, Shading::Flat] {
+            scene.objects[0].shading = shading;
+            for (visible, rgb) in buffer.visible.iter().zip(program_picture(&scene)) {
+                assert_eq!(rgb, if visible.is_some() { kd } else { scene.background });
+            }
+        }
+    }
+    assert!(buffer.covered_pixels() > 50);
 }
 
 #[test]
