@@ -74,6 +74,9 @@ pub struct Report {
     pub differences: Vec<Judged>,
     /// Largest radiance difference that was within tolerance, absolute, linear.
     pub largest_tolerated_radiance: f64,
+    /// Pixels whose radiance differs and may: rounding decides on which side of a light's terminator
+    /// they are (|N·L| < 1e-13).
+    pub terminator_pixels: usize,
     /// Decisions per level, caster and rasterizer.
     pub levels: [LevelCounts; 2],
 }
@@ -161,6 +164,7 @@ pub fn judge(
         audited_layered_pixels: sample.iter().filter(|&&p| cast.is_layered(p)).count(),
         differences,
         largest_tolerated_radiance: comparison.largest_tolerated_radiance,
+        terminator_pixels: comparison.terminator_pixels,
         levels: [cast.buffer.levels, raster.buffer.levels],
     }
 }

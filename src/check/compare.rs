@@ -4,10 +4,12 @@
 
 use super::tolerance::{compare_radiance, weights_agree};
 use crate::color::LinearRgb;
-use crate::pixel::Pixel;
+use crate::pixel::{Pixel, Window};
 use crate::scene::Scene;
 use crate::scene::sampling::SampleGrid;
-use crate::visibility::{Cover, Layers, VisibilityBuffer, Visible};
+use crate::shade::doubt::NEAR_TERMINATOR;
+use crate::shade::{Effects, doubts};
+use crate::visibility::{Cover, Layers, LevelCounts, VisibilityBuffer, Visible};
 
 /// One path's answer, shaded.
 #[derive(Clone, Debug, PartialEq)]
@@ -106,6 +108,9 @@ pub(super) struct Comparison {
     pub(super) differences: Vec<Difference>,
     /// Largest radiance difference within tolerance.
     pub(super) largest_tolerated_radiance: f64,
+    /// Pixels whose radiance differs because rounding decides on which side of a light's terminator
+    /// they are.
+    pub(super) terminator_pixels: usize,
 }
 
 /// Compares two answers for the same window.
@@ -113,6 +118,7 @@ pub(super) fn compare(scene: &Scene, a: &Answered, b: &Answered) -> Comparison {
     let window = a.buffer.window;
     let mut differences = Vec::new();
     let mut largest_tolerated_radiance = 0.0_f64;
+    let mut terminator_pixels = 0;
     for (index, pixel) in window.pixels().enumerate() {
         let kind = visibility_difference(
             (a.buffer.visible[index].as_ref(), cover_at(&a.buffer, index)),
@@ -127,13 +133,35 @@ pub(super) fn compare(scene: &Scene, a: &Answered, b: &Answered) -> Comparison {
             if within {
                 largest_tolerated_radiance = largest_tolerated_radiance.max(largest);
                 None
+            } else if is_at_terminator(scene, a, index) {
+                terminator_pixels += 1;
+                None
             } else {
                 Some(Kind::Radiance)
             }
         });
         differences.extend(kind.map(|kind| Difference { pixel, kind }));
     }
-    Comparison { differences, largest_tolerated_radiance }
+    Comparison { differences, largest_tolerated_radiance, terminator_pixels }
+}
+
+/// Whether the colour of a pixel hangs on the sign of an N·L below 1e-13, which the two paths'
+/// weights need not agree on: the specular part jumps there. Only where the pixel's colour is that
+/// of one surface at its centre.
+fn is_at_terminator(scene: &Scene, answered: &Answered, index: usize) -> bool {
+    let Pixel { x, y } = answered.buffer.window.pixel(index);
+    let is_one_surface = answered.layers.of(index).is_empty();
+    let window = Window::new(scene.camera.resolution(), x, y, x + 1, y + 1);
+    let (Some(window), true, SampleGrid::CENTRE) = (window, is_one_surface, scene.samples) else {
+        return false;
+    };
+    let pixel = VisibilityBuffer {
+        window,
+        visible: vec![answered.buffer.visible[index]],
+        cover: None,
+        levels: LevelCounts::default(),
+    };
+    doubts(scene, &pixel, Effects::of(scene))[0] & NEAR_TERMINATOR != 0
 }
 
 /// The largest specular exponent that the radiance of a pixel can hold.

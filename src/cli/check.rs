@@ -167,6 +167,13 @@ fn summary(checked: &Checked<'_>) -> String {
             report.layered_pixels, report.audited_layered_pixels,
         );
     }
+    if report.terminator_pixels > 0 {
+        text += &format!(
+            "  {} pixels lie on a light's terminator (|N·L| < 1e-13), where rounding decides: their \
+             radiance differs and may\n",
+            report.terminator_pixels,
+        );
+    }
     text += &format!(
         "  decisions f32/f64/exact: caster {}/{}/{}, rasterizer {}/{}/{}; \
          largest radiance difference {:.1e}; {:.2} s\n",
@@ -298,6 +305,7 @@ fn document(checked: &Checked<'_>) -> Value {
             "found_by_audit": judged.found_by_audit,
         })).collect::<Vec<_>>(),
         "largest_tolerated_radiance": report.largest_tolerated_radiance,
+        "terminator_pixels": report.terminator_pixels,
         "decisions": { "cast": levels[0], "raster": levels[1] },
         "time_s": checked.time.as_secs_f64(),
     })

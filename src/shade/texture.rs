@@ -52,19 +52,26 @@ pub fn level_of_detail(base: &Level, reference: &TextureRef, footprint: Footprin
 
 /// The value of the texel that holds the point.
 fn nearest(level: &Level, wrap: Wrap, uv: [f64; 2]) -> LinearRgb {
-    let column = nearest_index(wrapped(wrap, uv[0]), level.width());
-    let row = nearest_index(wrapped(wrap, uv[1]), level.height());
+    let column = nearest_index(wrap, uv[0], level.width());
+    let row = nearest_index(wrap, uv[1], level.height());
     level.texel(column, row)
 }
 
-/// ⌊position·length⌋ of the exact product, at most `length` − 1.
-fn nearest_index(position: f64, length: u32) -> u32 {
-    let length_f64 = f64::from(length);
-    let index = (position * length_f64).floor();
-    // Rounding reaches a whole number that the product itself stays below.
-    let is_rounded_up = libm::fma(position, length_f64, -index) < 0.0;
-    let index = if is_rounded_up { index - 1.0 } else { index };
-    (index as u32).min(length - 1)
+/// Steps per texel to which a point is rounded before its texel is chosen: 2^24. A uv is good to a
+/// few 2^-50 of the largest corner's, so that a point that lies on a texel's edge in exact numbers
+/// may come out on either side of it, and on different sides by different weights; rounded to the
+/// step it lies on the edge again, as long as uv times the texels stays below 2^24.
+const STEPS: f64 = (1 << 24) as f64;
+
+/// The index of the texel that holds a point, whose left (lower) edge belongs to it.
+fn nearest_index(wrap: Wrap, coordinate: f64, length: u32) -> u32 {
+    let position = wrapped(wrap, coordinate) * f64::from(length);
+    let index = ((position * STEPS).round() / STEPS).floor() as u32;
+    match wrap {
+        // A point just below the right rim is rounded to it: there the left one begins.
+        Wrap::Repeat => index % length,
+        Wrap::Clamp => index.min(length - 1),
+    }
 }
 
 /// The four nearest texels, weighted by distance along each axis.

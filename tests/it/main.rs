@@ -10,6 +10,8 @@ mod cast;
 mod catalogue;
 // The check finds damaged answers and blames the right path.
 mod check_can_fail;
+// Colours that hang on a rounding, before the check.
+mod check_rims;
 // The program as a user meets it.
 mod cli;
 // The oracle bundle: what it holds, and what it may replace.

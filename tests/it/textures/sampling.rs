@@ -23,10 +23,13 @@ fn nearest_is_the_texel_that_holds_the_point() {
     for wrap in BOTH {
         let value = |u, v| at(&four, Filter::Nearest, wrap, u, v);
         assert_eq!(value(0.0, 0.0), 0.25);
-        assert_eq!(value(0.5_f64.next_down(), 0.5_f64.next_down()), 0.25);
+        assert_eq!(value(0.5 - 1e-7, 0.5 - 1e-7), 0.25);
+        // A point that rounding puts beside a texel's edge lies on it.
+        assert_eq!(value(0.5_f64.next_down(), 0.0), 0.5);
+        assert_eq!(value(0.5_f64.next_up(), 0.0), 0.5);
         assert_eq!(value(0.5, 0.0), 0.5);
         assert_eq!(value(0.0, 0.5), 0.75);
-        assert_eq!(value(0.75, 1.0_f64.next_down()), 1.0);
+        assert_eq!(value(0.75, 1.0 - 1e-7), 1.0);
     }
     let row = grey(4, &[0.0, 0.25, 0.5, 1.0]);
     let value = |u| at(&row, Filter::Nearest, Wrap::Repeat, u, 17.3);
@@ -72,31 +75,38 @@ fn the_rim_repeats_or_stays() {
         assert_eq!(value(filter, Wrap::Clamp, -7.0), 0.0);
         assert_eq!(value(filter, Wrap::Clamp, 7.0), 1.0);
     }
-    // Just below a whole number is the last texel, at any size.
-    assert_eq!(value(Filter::Nearest, Wrap::Repeat, -1e-20), 1.0);
-    assert_eq!(value(Filter::Nearest, Wrap::Repeat, -5e-324), 1.0);
+    // Just below a whole number is the last texel; what only rounding keeps below is the first.
+    assert_eq!(value(Filter::Nearest, Wrap::Repeat, -1e-7), 1.0);
+    assert_eq!(value(Filter::Nearest, Wrap::Repeat, -1e-20), 0.0);
+    assert_eq!(value(Filter::Nearest, Wrap::Repeat, -5e-324), 0.0);
     assert_eq!(value(Filter::Bilinear, Wrap::Repeat, -1e-20), 0.5);
 }
 
 #[test]
 fn the_nearest_column_is_that_of_the_exact_product() {
-    let mut disagreements = 0;
+    // Points within half a step of a texel's edge lie on the edge; all others in the texel of the
+    // exact product.
+    let half_step = 0.5 / f64::from(1 << 24);
+    let mut moved = 0;
     for width in 1_u32..=130 {
         let column = |i: u32| i as f32 / 128.0;
         let texels: Vec<f32> = (0..width).map(column).collect();
         let row = grey(width, &texels);
         for boundary in 1..width {
             let u = f64::from(boundary) / f64::from(width);
-            for u in [u.next_down(), u, u.next_up()] {
+            let beside = 1.01 * half_step / f64::from(width);
+            for u in [u - beside, u.next_down(), u, u.next_up(), u + beside] {
                 let exact = RBig::try_from(u).unwrap() * RBig::from(IBig::from(width));
-                let expected = u32::try_from(exact.floor()).unwrap();
+                let exact_column = u32::try_from(exact.floor()).unwrap();
+                let is_beside = (u * f64::from(width) - f64::from(boundary)).abs() > half_step;
+                let expected = if is_beside { exact_column } else { boundary };
                 let found = at(&row, Filter::Nearest, Wrap::Repeat, u, 0.5);
                 assert_eq!(found, f64::from(column(expected)), "{u} × {width}");
-                disagreements += u32::from((u * f64::from(width)) as u32 != expected);
+                moved += u32::from(exact_column != expected);
             }
         }
     }
-    assert!(disagreements > 0, "the rounded product would do");
+    assert!(moved > 0, "the exact product would do");
 }
 
 #[test]
