@@ -12,14 +12,19 @@ mod corners;
 pub mod doubt;
 pub mod effects;
 mod equation;
+mod falloff;
 mod flat_faults;
 pub mod footprint;
+mod frame;
+mod geometry;
 pub mod hemisphere;
 mod kernel;
+mod kernel_effects;
 mod lights;
 mod method;
 mod reach;
 pub mod reflection;
+mod specular;
 pub mod surface;
 pub mod terms;
 pub mod texture;
@@ -31,7 +36,7 @@ pub use calls::{Call, explain};
 pub use doubt::doubts;
 pub use effects::Effects;
 pub use flat_faults::{FlatFault, flat_faults};
-pub use kernel::{Asker, Occlusion};
+pub use frame::{Asker, Occlusion};
 pub use surface::{SurfacePoint, surface_point};
 pub use terms::{LightTerm, Outcome, Terms};
 pub use watch::{Evaluations, Notes};
@@ -42,8 +47,11 @@ use crate::scene::Scene;
 use crate::scene::material::Material;
 use crate::visibility::{VisibilityBuffer, Visible};
 use coefficients::Coefficients;
-use equation::{Geometry, KernelEffects, Lighting};
-use kernel::{Frame, RowKernel};
+use equation::Lighting;
+use frame::Frame;
+use geometry::Geometry;
+use kernel::RowKernel;
+use kernel_effects::KernelEffects;
 use method::Method;
 use std::sync::Mutex;
 use watch::{Nobody, Ungated, Watch};
@@ -195,7 +203,7 @@ pub fn terms<'a>(
     let frame = Frame::new(scene, Effects::ALL, occlusion);
     let coefficients = coefficients::at_pixel(&frame, pixel, visible, material, &mut Nobody);
     let asker = frame.asker();
-    let is_hidden = |light| kernel::is_hidden(&asker, pixel, visible, light);
+    let is_hidden = |light| frame::is_hidden(&asker, pixel, visible, light);
     let lights_at = |geometry: Option<&Geometry>| {
         let mut lights = vec![LightTerm::DARK; scene.lights.len()];
         let lighting = Lighting { reaches: &[], is_hidden: &is_hidden };
@@ -212,9 +220,9 @@ pub fn terms<'a>(
         Method::VertexColors => vec![LightTerm::DARK; scene.lights.len()],
         Method::SmoothPixel | Method::FlatPixel => {
             let is_smooth = method == Method::SmoothPixel;
-            let geometry = kernel::geometry_at_pixel::<ALL, _>(
+            let geometry = geometry::geometry_at_pixel::<ALL, _>(
                 &frame,
-                &kernel::Seen { pixel, visible, position: None },
+                &geometry::Seen { pixel, visible, position: None },
                 is_smooth,
                 &coefficients,
                 &mut Nobody,

@@ -4,7 +4,7 @@
 
 use super::effects::Effects;
 use super::footprint::footprint;
-use super::kernel::Frame;
+use super::frame::Frame;
 use super::texture::sample;
 use super::watch::Watch;
 use super::weights::{mix, weights};

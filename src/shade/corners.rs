@@ -5,8 +5,8 @@
 //! Sources: Gouraud, "Continuous Shading of Curved Surfaces" (1971), by way of Curless, "Shading"
 //! and IIT, "Gouraud Surface Rendering"; OpenGL's provoking vertex.
 
-use super::equation::Geometry;
-use super::kernel::Frame;
+use super::frame::Frame;
+use super::geometry::Geometry;
 use super::surface;
 use super::watch::Watch;
 use crate::color::LinearRgb;

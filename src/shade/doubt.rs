@@ -3,7 +3,8 @@
 //! The counts over a whole picture are [`super::Notes`]; the pixel's own colour is not looked at.
 
 use super::effects::Effects;
-use super::kernel::{self, Frame};
+use super::frame::Frame;
+use super::kernel;
 use super::watch::{Note, Watch};
 use crate::pixel;
 use crate::scene::Scene;

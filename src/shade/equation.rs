@@ -9,84 +9,26 @@
 //! A term is gated before it is evaluated: what has no colour, no reach or the wrong side is never
 //! computed, so no 0·∞ exists. No clamping and no visibility here; whether a light is hidden is asked.
 
-use super::blinn_phong::{halfway, one_minus_cosine, shortened_lobe};
 use super::coefficients::{Coefficients, product};
 use super::effects::Effects;
+use super::falloff::factor_of;
+use super::frame::Frame;
+use super::geometry::Geometry;
 use super::hemisphere::top_share;
-use super::kernel::Frame;
-use super::lights::{Origin, Position, PreparedLight, attenuation_denominator, is_black};
-use super::reflection::reflect;
-use super::surface::unless_cancelled;
+use super::kernel_effects::KernelEffects;
+use super::lights::{Origin, PreparedLight, is_black};
+use super::specular::specular_lobe;
 use super::terms::{LightTerm, Outcome, accumulate, accumulate_light};
 use super::vector;
 use super::watch::{Note, Watch};
-use super::weights::mix;
 use crate::color::LinearRgb;
 use crate::scene::light::HemisphereLight;
-use crate::scene::switches::{BacklitSpecular, Rules, SpecularModel};
+use crate::scene::switches::{BacklitSpecular, Rules};
 
 /// Below this |N·L| the side of the terminator is in doubt: N and L are each unit and right to a
 /// few 2^-52 when their inputs are, and two paths' weights differ by 2^-48 = 4e-15; 1e-13 leaves
 /// room for corner normals that turn quickly.
 const TERMINATOR: f64 = 1e-13;
-
-/// Effects that are worth a kernel of their own: each saves per-pixel set-up or transcendental
-/// functions. The others are decided once per light, when lights are prepared.
-#[derive(Clone, Copy)]
-pub(super) struct KernelEffects(pub(super) u8);
-
-impl KernelEffects {
-    /// A light at a point: the world position is needed.
-    pub(super) const POSITIONAL: Self = Self(1);
-    /// Cone or falloff of a spotlight.
-    pub(super) const CONE: Self = Self(2);
-    /// Specular terms: the eye direction is needed.
-    pub(super) const SPECULAR: Self = Self(4);
-    /// Interpolated normals.
-    pub(super) const NORMALS: Self = Self(8);
-    /// Everything, for single points.
-    pub(super) const ALL: u8 = 15;
-
-    pub(super) const fn has(self, effect: Self) -> bool {
-        self.0 & effect.0 != 0
-    }
-
-    pub(super) fn of(effects: Effects) -> Self {
-        let pairs = [
-            (Effects::POINT.with(Effects::SPOT), Self::POSITIONAL),
-            (Effects::CONE.with(Effects::EXPONENT), Self::CONE),
-            (Effects::SPECULAR, Self::SPECULAR),
-            (Effects::INTERPOLATED_NORMALS, Self::NORMALS),
-        ];
-        Self(pairs.iter().filter(|(set, _)| effects.has(*set)).map(|(_, bit)| bit.0).sum())
-    }
-
-    /// Position in a table over all sets.
-    pub(super) fn index(self) -> usize {
-        usize::from(self.0)
-    }
-}
-
-/// A point as lights see it; what the kernel has no use for is zero.
-#[derive(Clone, Copy)]
-pub(super) struct Geometry {
-    pub(super) position: [f64; 3],
-    /// V, unit.
-    pub(super) to_eye: [f64; 3],
-    /// N̂, unit.
-    pub(super) normal: [f64; 3],
-    /// |N|: 1, unless an interpolated normal is left as it is.
-    pub(super) normal_length: f64,
-    /// Where L is mixed from that of the corners.
-    pub(super) mixture: Option<Mixture>,
-}
-
-/// The corners from which L is interpolated.
-#[derive(Clone, Copy)]
-pub(super) struct Mixture {
-    pub(super) corners: [[f64; 3]; 3],
-    pub(super) weights: [f64; 3],
-}
 
 /// What is known beforehand of the lights at a point.
 #[derive(Clone, Copy)]
@@ -313,87 +255,4 @@ fn light_up_from_all_around<W: Watch>(
         0.0 => 0.0,
         kd => kd * (a * light.top[k] + (1.0 - a) * light.bottom[k]),
     });
-}
-
-/// The cosine of the specular lobe and its power; `None` where L = −V leaves no halfway vector.
-fn specular_lobe(
-    rules: &Rules,
-    geometry: &Geometry,
-    to_light: [f64; 3],
-    exponent: f64,
-) -> Option<(f64, f64)> {
-    let (q, length) = match rules.specular {
-        SpecularModel::Blinn => {
-            let half = halfway(to_light, geometry.to_eye)?;
-            (one_minus_cosine(geometry.normal, half), geometry.normal_length)
-        }
-        SpecularModel::Phong if geometry.normal_length == 1.0 => {
-            (one_minus_cosine(geometry.to_eye, reflect(to_light, geometry.normal)), 1.0)
-        }
-        // A shorter normal makes a shorter R, of at most unit length; at length 0, V·R is 0.
-        SpecularModel::Phong => {
-            let normal = vector::scaled(geometry.normal, geometry.normal_length);
-            match vector::measure(reflect(to_light, normal)) {
-                Some(mirror) => (one_minus_cosine(geometry.to_eye, mirror.unit()), mirror.length),
-                None => (1.0, 0.0),
-            }
-        }
-    };
-    Some(((1.0 - q) * length, shortened_lobe(q, length, exponent)))
-}
-
-impl Mixture {
-    /// The mean of the corners' unit directions to a point, made unit; `None` where it cancels. A
-    /// corner at the point itself has none.
-    pub(super) fn direction_to(&self, point: [f64; 3]) -> Option<[f64; 3]> {
-        let directions =
-            self.corners.map(|corner| vector::unit(vector::sub(point, corner)).unwrap_or_default());
-        unless_cancelled(mix(self.weights, directions))
-    }
-}
-
-/// f of a light, 0…f64::MAX; 1 at infinity, `None` outside its cone.
-fn factor_of<const E: u8, W: Watch>(
-    reach: Option<(&Position, f64)>,
-    to_light: [f64; 3],
-    watch: &mut W,
-) -> Option<f64> {
-    match reach {
-        Some((at, distance)) => reach_factor::<E, W>(at, to_light, distance, watch),
-        None => Some(1.0),
-    }
-}
-
-/// f of a light at a position.
-fn reach_factor<const E: u8, W: Watch>(
-    at: &Position,
-    to_light: [f64; 3],
-    distance: f64,
-    watch: &mut W,
-) -> Option<f64> {
-    let effects = const { KernelEffects(E) };
-    let mut factor = 1.0;
-    if effects.has(KernelEffects::CONE)
-        && let Some(cone) = &at.cone
-    {
-        if cone.largest_squared_chord.is_some() {
-            watch.evaluated(Effects::CONE);
-        }
-        if !cone.contains(to_light) {
-            return None;
-        }
-        if cone.exponent.is_some() {
-            watch.evaluated(Effects::EXPONENT);
-        }
-        factor = cone.falloff(to_light);
-    }
-    // A falloff of 0 is not divided: the denominator may underflow to 0 too.
-    if let Some(abc) = at.attenuation
-        && factor > 0.0
-    {
-        watch.evaluated(Effects::ATTENUATION);
-        // The equation's pole (r → 0 with a = 0) may lie beyond the range: the end of the range.
-        factor = (factor / attenuation_denominator(abc, distance)).min(f64::MAX);
-    }
-    Some(factor)
 }
