@@ -157,12 +157,12 @@ fn s34_gouraud_stays_below_its_corners_and_phong_need_not() {
                 sum + light.ambient[channel] + light.diffuse[channel] + light.specular[channel]
             })
         };
-        for channel in 0..3 {
+        for (channel, phong) in phong[index].into_iter().enumerate() {
             let most = (0..3).map(|k| corner(k, channel)).fold(0.0, f64::max);
             // Weights sum to 1 to a few roundings.
             let value = terms.sum()[channel];
             assert!(value <= most * (1.0 + 8.0 * f64::EPSILON), "{value} above {most}");
-            exceeding += usize::from(phong[index][channel] > most * 1.01);
+            exceeding += usize::from(phong > most * 1.01);
         }
     }
     assert!(exceeding > 10, "{exceeding}");
