@@ -89,7 +89,8 @@ fn scaled_baseline(folder: &Path, factor: f64) -> String {
 #[test]
 fn a_baseline_finds_what_became_slower() {
     let folder = TempDir::new().unwrap();
-    // A thousandfold is beyond any noise: rows of two rounds have deviations below their medians.
+    // A thousandfold is beyond noise in every row whose deviation is below a third of its median,
+    // and one of sixteen always is.
     let faster_once = scaled_baseline(folder.path(), 1e-3);
     let (status, stdout, _) = bench(folder.path(), &["--rounds", "9", "--baseline", &faster_once]);
     assert_eq!(status, 1, "{stdout}");
@@ -117,6 +118,31 @@ fn what_cannot_be_compared_or_measured_is_refused() {
     let (status, _, stderr) = bench_of("iteration-1.toml", folder.path(), &["--baseline", &same]);
     assert_eq!(status, 3, "{stderr}");
     assert!(stderr.contains("was not measured"), "{stderr}");
+}
+
+/// One triangle, and a camera that looks away from it.
+const AWAY: &str = r#"version = 1
+[image]
+width = 8
+height = 6
+[camera]
+eye = [0.0, 0.0, 5.0]
+target = [0.0, 0.0, 9.0]
+up = [0.0, 1.0, 0.0]
+fov_y_deg = 40.0
+[[mesh]]
+file = "mesh.obj"
+"#;
+
+#[test]
+fn a_scene_that_shows_nothing_is_not_timed() {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("away.toml"), AWAY).unwrap();
+    let mesh = "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n";
+    fs::write(folder.path().join("mesh.obj"), mesh).unwrap();
+    let (status, stdout, stderr) = truecast(folder.path(), &["bench", "away.toml"]);
+    assert_eq!((status, &*stdout), (3, ""), "{stderr}");
+    assert!(stderr.contains("away.toml: no triangle is visible"), "{stderr}");
 }
 
 /// Rows of variants that rasterize and then change the answer.

@@ -15,6 +15,7 @@ writing failed; 130 interrupted."
 )]
 pub(in crate::cli) struct BenchArguments {
     /// Scene files (TOML); without any the built-in default scene, a teapot under spotlights
+    #[arg(value_name = "SCENE")]
     pub(in crate::cli) scenes: Vec<PathBuf>,
     /// Also write the report to this file, .json or .csv by extension; may be repeated
     #[arg(short, long = "output", value_name = "FILE")]
