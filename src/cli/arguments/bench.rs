@@ -22,7 +22,8 @@ pub(in crate::cli) struct BenchArguments {
     pub(in crate::cli) output: Vec<PathBuf>,
     /// Compare with an earlier report in JSON: a median that is larger by more than 5 % and by more
     /// than 3 times the sum of both median absolute deviations is slower beyond noise. It must be of
-    /// the same scenes, size and number of threads
+    /// the same scenes, size and number of threads. Measure both with the machine otherwise at rest:
+    /// rounds tell how times spread within a run, not what else ran beside all of it
     #[arg(long, value_name = "FILE.json")]
     pub(in crate::cli) baseline: Option<PathBuf>,
     /// How often each variant is timed; all variants take turns in each round
