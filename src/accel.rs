@@ -5,6 +5,7 @@
 //! rounding. What a triangle is tested for is the caster's business.
 
 mod bounds;
+mod cost;
 mod entries;
 mod node;
 mod preset;
@@ -90,6 +91,13 @@ impl Accelerator {
     /// Memory of nodes and leaf triangles, in bytes.
     pub fn bytes(&self) -> usize {
         size_of_val(&self.tree.nodes[..]) + size_of_val(&self.tree.triangles[..])
+    }
+
+    /// Expected number of tests, pairs of boxes and triangles, of a random line that meets the
+    /// root's box, by the surface area heuristic; `None` for a hierarchy of one leaf or none, and
+    /// for one in a line.
+    pub fn surface_area_cost(&self) -> Option<f64> {
+        self.tree.surface_area_cost()
     }
 
     /// Visits every triangle that the ray meets within the reach that `visit` returns.

@@ -4,6 +4,7 @@
 
 mod arguments;
 mod audit;
+mod bench;
 mod check;
 mod explain;
 mod export;
@@ -52,6 +53,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Pixel(arguments) => pixel::run(&arguments),
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Sheet(arguments) => sheet::run(&arguments, &writing),
+        Command::Bench(arguments) => bench::run(&arguments, &writing),
         Command::Lobe(arguments) => lobe::run(&arguments, &writing),
     };
     match status {

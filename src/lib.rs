@@ -39,7 +39,7 @@
 //!
 //! | floor | modules | what they hold |
 //! |---|---|---|
-//! | check | [`check`], [`export`], [`sheet`] | both paths compared, the arbiter's word, blame, difference pictures; the oracle bundle; sheets of pictures |
+//! | check | [`check`], [`mod@bench`], [`export`], [`sheet`] | both paths compared, the arbiter's word, blame, difference pictures; times of right answers; the oracle bundle; sheets of pictures |
 //! | frame | [`render`] | scene and options in, film out: the one place that knows both paths and shading |
 //! | lobe | [`lobe`] | goniometric diagrams of a reflectance |
 //! | shading | [`shade`] | effects, the equation, surface points |
@@ -109,6 +109,7 @@
 //! most 2^126; a scene has fewer than 2^32 − 1 triangles; an image at most 65 536 pixels a side.
 
 pub mod accel;
+pub mod bench;
 pub mod cast;
 pub mod check;
 pub mod color;

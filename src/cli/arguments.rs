@@ -1,8 +1,10 @@
 //! The command line as typed.
 
+mod bench;
 mod lobe;
 mod sheet;
 
+pub(super) use bench::BenchArguments;
 pub(super) use lobe::{LobeArguments, SpecularWord};
 pub(super) use sheet::SheetArguments;
 
@@ -38,6 +40,8 @@ pub(super) enum Command {
     Pixel(PixelArguments),
     /// Say which effects the scene calls for, and its resolved camera and switches
     Explain(ExplainArguments),
+    /// Time building, casting, rasterizing and shading; a wrong answer gets no time
+    Bench(BenchArguments),
     /// Lay several renders out in one labelled PNG
     Sheet(SheetArguments),
     /// Draw the goniometric diagram of a reflectance: its polar curves for one light

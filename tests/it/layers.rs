@@ -67,6 +67,10 @@ const ALLOWED: &[Allowed] = &[
         ],
     ),
     (
+        "bench",
+        &["pixel", "mesh", "scene", "visibility", "film", "accel", "exact", "shade", "render"],
+    ),
+    (
         "export",
         &[
             "pixel",

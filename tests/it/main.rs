@@ -2,6 +2,8 @@
 
 // The arbiter against golden images, hand values and its own undiscarded self.
 mod arbiter;
+// The benchmark: report, baselines, no time for a wrong kernel.
+mod bench;
 // Only the effects that a scene calls for: neutral, uncounted, measured.
 mod called_for;
 // The ray caster on golden and hard scenes: all build presets, tile sizes, threads.

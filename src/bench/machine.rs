@@ -1,0 +1,47 @@
+//! What a benchmark ran on, as far as the standard library and Linux tell.
+
+use std::thread::available_parallelism;
+
+/// The machine of a benchmark.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Machine {
+    /// Logical cores that this process may use; `None` where the system does not say.
+    pub logical_cores: Option<usize>,
+    /// Model of the processor; `None` outside Linux, and where Linux does not name it.
+    pub cpu: Option<String>,
+    /// Version of this crate.
+    pub version: &'static str,
+}
+
+impl Machine {
+    /// This machine.
+    pub fn here() -> Self {
+        let text = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
+        Self {
+            logical_cores: available_parallelism().ok().map(usize::from),
+            cpu: cpu_model(&text),
+            version: env!("CARGO_PKG_VERSION"),
+        }
+    }
+}
+
+/// The first `model name` of the text of `/proc/cpuinfo`.
+fn cpu_model(text: &str) -> Option<String> {
+    text.lines()
+        .filter_map(|line| line.split_once(':'))
+        .find(|(key, _)| key.trim() == "model name")
+        .map(|(_, model)| model.trim().to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::cpu_model;
+
+    #[test]
+    fn the_model_is_named_where_there_is_one() {
+        let text =
+            "processor\t: 0\nmodel\t\t: 79\nmodel name\t: Abacus 3000 @ 2 Hz\nflags\t: fpu\n";
+        assert_eq!(cpu_model(text).as_deref(), Some("Abacus 3000 @ 2 Hz"));
+        assert_eq!(cpu_model("processor : 0\nCPU part : 0xd0c\n"), None);
+    }
+}

@@ -1,0 +1,11 @@
+//! A report as a table for people, as JSON for programs and baselines, as CSV for spreadsheets.
+//!
+//! Only layout: every number was found before. Each column or cell names its unit.
+
+mod csv;
+mod json;
+mod table;
+
+pub use csv::to_csv;
+pub use json::{SCHEMA, to_json};
+pub use table::to_table;

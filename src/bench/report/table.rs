@@ -1,0 +1,139 @@
+//! A report as tables for a terminal.
+
+use crate::bench::baseline::Compared;
+use crate::bench::rounds::Row;
+use crate::bench::statistics::NOISY_SPREAD;
+use crate::bench::{Measured, Report};
+use std::fmt::Write;
+
+/// The tables of every scene, what is noise among them, and the comparison. Writing to a String
+/// cannot fail, so results of `write!` are dropped.
+pub fn to_table(report: &Report) -> String {
+    let machine = &report.machine;
+    let mut text = format!(
+        "truecast {}, {} threads, {} rounds; {}, {} logical cores\n",
+        machine.version,
+        report.threads,
+        report.rounds,
+        machine.cpu.as_deref().unwrap_or("unknown processor"),
+        machine.logical_cores.map_or_else(|| "?".to_owned(), |cores| cores.to_string()),
+    );
+    for measured in &report.scenes {
+        scene(&mut text, measured);
+    }
+    if let Some(comparison) = &report.comparison {
+        compare(&mut text, comparison);
+    }
+    text
+}
+
+fn scene(text: &mut String, measured: &Measured) {
+    let subject = &measured.subject;
+    let _ = writeln!(
+        text,
+        "\n{}: {}x{} pixels, {} triangles, {} pixels covered",
+        subject.name,
+        subject.resolution.width(),
+        subject.resolution.height(),
+        measured.triangles,
+        measured.covered_pixels,
+    );
+    let _ = writeln!(
+        text,
+        "answers held against both paths at every pixel and exact arithmetic at {} ({} in dispute)",
+        measured.audited_pixels, measured.disputed_pixels,
+    );
+    let _ = writeln!(
+        text,
+        "{:<20} {:>12} {:>10} {:>12} {:>22} {:>12}",
+        "", "median ms", "MAD ms", "min ms", "rate", "wrong pixels"
+    );
+    measured.rows.iter().for_each(|row| time(text, row));
+    let noisy: Vec<&str> = measured.rows.iter().filter(|r| is_noisy(r)).map(|r| &*r.name).collect();
+    if !noisy.is_empty() {
+        let _ = writeln!(
+            text,
+            "noisy, MAD above {:.0} % of the median: {}; let the machine rest or raise --rounds",
+            100.0 * NOISY_SPREAD,
+            noisy.join("; "),
+        );
+    }
+    let _ = writeln!(
+        text,
+        "{:<20} {:>12} {:>10} {:>12} {:>22}",
+        "tree", "inner nodes", "depth", "B/triangle", "area cost, tests/ray"
+    );
+    for tree in &measured.trees {
+        let cost = tree.surface_area_cost.map_or_else(|| "-".to_owned(), |c| format!("{c:.2}"));
+        let _ = writeln!(
+            text,
+            "{:<20} {:>12} {:>10} {:>12.1} {:>22}",
+            tree.preset, tree.nodes, tree.depth, tree.bytes_per_triangle, cost
+        );
+    }
+    let _ = writeln!(
+        text,
+        "{:<20} {:>12} {:>10} {:>12} {:>22}",
+        "decisions", "f32", "f64", "exact", "all, per pixel"
+    );
+    for row in &measured.rows {
+        let Some(levels) = row.levels else { continue };
+        let all = (levels.single + levels.double + levels.exact) as f64;
+        let _ = writeln!(
+            text,
+            "{:<20} {:>12} {:>10} {:>12} {:>22.2}",
+            row.name,
+            levels.single,
+            levels.double,
+            levels.exact,
+            all / subject.resolution.window().len() as f64
+        );
+    }
+}
+
+fn is_noisy(row: &Row) -> bool {
+    row.times.is_some_and(|times| times.is_noisy())
+}
+
+fn time(text: &mut String, row: &Row) {
+    let wrong = row.wrong_pixels.map_or_else(|| "-".to_owned(), |wrong| wrong.to_string());
+    let Some(times) = &row.times else {
+        let _ = writeln!(
+            text,
+            "{:<20} {:>12} {:>10} {:>12} {:>22} {wrong:>12}",
+            row.name, "-", "-", "-", "wrong, so no time"
+        );
+        return;
+    };
+    let rate = times.millions_per_second(row.amount.count);
+    let rate = rate.map_or_else(String::new, |r| format!("{r:.3} {}", row.amount.unit.rate()));
+    let _ = writeln!(
+        text,
+        "{:<20} {:>12.3} {:>10.3} {:>12.3} {rate:>22} {wrong:>12}",
+        row.name,
+        1e3 * times.median,
+        1e3 * times.deviation,
+        1e3 * times.least,
+    );
+}
+
+fn compare(text: &mut String, comparison: &[Compared]) {
+    let slower: Vec<&Compared> = comparison.iter().filter(|c| c.is_regression()).collect();
+    let _ = writeln!(
+        text,
+        "\nbaseline: {} rows compared, {} slower beyond noise",
+        comparison.len(),
+        slower.len()
+    );
+    for compared in slower {
+        let _ = writeln!(
+            text,
+            "slower: {}, {}: {:.3} ms, was {:.3} ms ({:.2} times)",
+            compared.scene,
+            compared.name,
+            1e3 * compared.new.median,
+            1e3 * compared.old.median,
+            compared.ratio(),
+        );
+    }
+}

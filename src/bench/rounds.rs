@@ -1,0 +1,83 @@
+//! Rounds: every variant is checked, then all take turns, and each answer is checked again.
+//!
+//! Variants take turns so that a machine that is busy for a while is so for all of them. Only the
+//! variant's own work is timed; comparing its answer and freeing it are not.
+
+use super::reference::Reference;
+use super::statistics::Statistics;
+use super::workload::{Amount, Answer, Variant};
+use crate::render::Progress;
+use crate::visibility::LevelCounts;
+use std::time::{Duration, Instant};
+
+/// What is known of a variant in the end.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// The variant.
+    pub name: String,
+    /// What it works through.
+    pub amount: Amount,
+    /// Pixels at which its answer was wrong, the most in any run; `None` for a variant that answers
+    /// no question of visibility.
+    pub wrong_pixels: Option<usize>,
+    /// Its times; `None` if an answer was wrong.
+    pub times: Option<Statistics>,
+    /// Decisions per level of arithmetic, where the variant reports them.
+    pub levels: Option<LevelCounts>,
+}
+
+/// Checks every variant, then times those that are right `rounds` times, at least once. A variant
+/// whose answer is wrong in any run has no times.
+pub fn take_turns(
+    variants: &[Variant<'_>],
+    reference: &Reference,
+    rounds: usize,
+    progress: &dyn Progress,
+) -> Vec<Row> {
+    let rounds = rounds.max(1);
+    progress.begin("bench", variants.len() * (rounds + 1));
+    // This run also warms caches and the allocator, and its time does not count.
+    let mut rows: Vec<Row> = variants
+        .iter()
+        .map(|variant| {
+            let answer = variant.run();
+            progress.step();
+            Row {
+                name: variant.name.clone(),
+                amount: variant.amount,
+                wrong_pixels: wrong_pixels(&answer, reference),
+                times: None,
+                levels: match &answer {
+                    Answer::Visibility(buffer) => Some(buffer.levels),
+                    Answer::Film(_) | Answer::Unchecked => None,
+                },
+            }
+        })
+        .collect();
+    let mut times: Vec<Vec<Duration>> = vec![Vec::new(); variants.len()];
+    for _ in 0..rounds {
+        for ((variant, row), times) in variants.iter().zip(&mut rows).zip(&mut times) {
+            if row.wrong_pixels.is_none_or(|wrong| wrong == 0) {
+                let started = Instant::now();
+                let answer = variant.run();
+                times.push(started.elapsed());
+                row.wrong_pixels = row.wrong_pixels.max(wrong_pixels(&answer, reference));
+            }
+            progress.step();
+        }
+    }
+    for (row, times) in rows.iter_mut().zip(&times) {
+        if row.wrong_pixels.is_none_or(|wrong| wrong == 0) {
+            row.times = Statistics::of(times);
+        }
+    }
+    rows
+}
+
+fn wrong_pixels(answer: &Answer, reference: &Reference) -> Option<usize> {
+    match answer {
+        Answer::Visibility(buffer) => Some(reference.wrong_pixels(buffer)),
+        Answer::Film(film) => Some(reference.wrong_pixels_of_film(film)),
+        Answer::Unchecked => None,
+    }
+}

@@ -1,0 +1,212 @@
+//! The benchmark: its report's fields, no time for a wrong kernel, and baselines on the command line.
+
+use crate::support::program::truecast;
+use serde_json::Value;
+use std::fs;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+use truecast::bench::reference::Reference;
+use truecast::bench::rounds::{Row, take_turns};
+use truecast::bench::workload::{Amount, Unit, Variant};
+use truecast::mesh::TriangleId;
+use truecast::pixel::Resolution;
+use truecast::raster::rasterize;
+use truecast::render::Unwatched;
+use truecast::scene::{Overrides, Scene};
+use truecast::visibility::{Counting, VisibilityBuffer};
+
+/// What is asked for unless a test asks for something else.
+const SMALL: [[&str; 2]; 3] = [["--rounds", "2"], ["--size", "32x18"], ["--threads", "1"]];
+
+fn scene_file(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes").join(name)
+}
+
+fn bench(folder: &Path, more: &[&str]) -> (i32, String, String) {
+    bench_of("iteration-0.toml", folder, more)
+}
+
+fn bench_of(scene: &str, folder: &Path, more: &[&str]) -> (i32, String, String) {
+    let scene = scene_file(scene);
+    let mut arguments = vec!["bench", scene.to_str().unwrap()];
+    arguments.extend(SMALL.iter().filter(|pair| !more.contains(&pair[0])).flatten());
+    arguments.extend(more);
+    truecast(folder, &arguments)
+}
+
+#[test]
+fn the_report_has_its_fields_and_positive_times() {
+    let folder = TempDir::new().unwrap();
+    let (status, stdout, stderr) = bench(folder.path(), &["--json", "-o", "a.csv", "-o", "a.json"]);
+    assert_eq!((status, &*stderr), (0, ""));
+    let report: Value = serde_json::from_str(&stdout).unwrap();
+    assert_eq!(report["schema"], "truecast/bench/1");
+    assert_eq!((&report["threads"], &report["rounds"]), (&1.into(), &2.into()));
+    assert!(report["machine"]["logical_cores"].as_u64().unwrap() > 0);
+    let scene = &report["scenes"][0];
+    assert_eq!((&scene["width"], &scene["height"]), (&32.into(), &18.into()));
+    assert_eq!(scene["audited_pixels"], 200);
+    assert_eq!(scene["disputed_pixels"], 0);
+    assert_eq!(scene["trees"].as_array().unwrap().len(), 5);
+    let rows = scene["rows"].as_array().unwrap();
+    for row in rows {
+        let name = row["name"].as_str().unwrap();
+        for key in ["median_ms", "min_ms", "max_ms", "rate"] {
+            assert!(row[key].as_f64().unwrap() > 0.0, "{name}: {key}");
+        }
+        assert!(row["mad_ms"].as_f64().unwrap() >= 0.0, "{name}");
+        assert_eq!(row["n"], 2, "{name}");
+        let is_checked = !name.starts_with("build") && name != "shade";
+        let wrong = if is_checked { Value::from(0) } else { Value::Null };
+        assert_eq!(row["wrong_pixels"], wrong, "{name}");
+        let counts_decisions = name.starts_with("cast") || name.starts_with("raster");
+        assert_eq!(row["decisions"].is_object(), counts_decisions, "{name}");
+    }
+    let csv = fs::read_to_string(folder.path().join("a.csv")).unwrap();
+    assert_eq!(csv.lines().count(), 1 + rows.len());
+    let columns = csv.lines().next().unwrap().split(',').count();
+    // "cast medium, cover" is quoted.
+    let cover = csv.lines().find(|line| line.contains("\"cast medium, cover\"")).unwrap();
+    assert_eq!(cover.split(',').count(), columns + 1);
+    let written = fs::read_to_string(folder.path().join("a.json")).unwrap();
+    assert_eq!(serde_json::from_str::<Value>(&written).unwrap(), report);
+}
+
+/// Writes a baseline whose medians are those of a run times `factor`.
+fn scaled_baseline(folder: &Path, factor: f64) -> String {
+    let (status, stdout, _) = bench(folder, &["--json"]);
+    assert_eq!(status, 0);
+    let mut report: Value = serde_json::from_str(&stdout).unwrap();
+    for row in report["scenes"][0]["rows"].as_array_mut().unwrap() {
+        row["median_ms"] = (row["median_ms"].as_f64().unwrap() * factor).into();
+        row["mad_ms"] = (row["mad_ms"].as_f64().unwrap() * factor).into();
+    }
+    let path = folder.join(format!("{factor}.json"));
+    fs::write(&path, report.to_string()).unwrap();
+    path.to_str().unwrap().to_owned()
+}
+
+#[test]
+fn a_baseline_finds_what_became_slower() {
+    let folder = TempDir::new().unwrap();
+    // A thousandfold is beyond noise in every row whose deviation is below a third of its median,
+    // and one of sixteen always is.
+    let faster_once = scaled_baseline(folder.path(), 1e-3);
+    let (status, stdout, _) = bench(folder.path(), &["--rounds", "9", "--baseline", &faster_once]);
+    assert_eq!(status, 1, "{stdout}");
+    assert!(stdout.contains("slower: ") && stdout.contains("cast medium"), "{stdout}");
+    let slower_once = scaled_baseline(folder.path(), 1e3);
+    let (status, stdout, _) = bench(folder.path(), &["--baseline", &slower_once]);
+    assert_eq!(status, 0, "{stdout}");
+    assert!(stdout.contains(", 0 slower beyond noise"), "{stdout}");
+}
+
+#[test]
+fn what_cannot_be_compared_or_measured_is_refused() {
+    let folder = TempDir::new().unwrap();
+    let same = scaled_baseline(folder.path(), 1.0);
+    let refused = |more: &[&str], status: i32, word: &str| {
+        let (found, stdout, stderr) = bench(folder.path(), more);
+        assert_eq!((found, &*stdout), (status, ""), "{stderr}");
+        assert!(stderr.contains(word), "{stderr}");
+    };
+    refused(&["--baseline", &same, "--size", "16x9"], 3, "give --size 32x18");
+    refused(&["--baseline", &same, "--threads", "2"], 3, "give --threads 1");
+    refused(&["--baseline", "missing.json"], 4, "missing.json");
+    refused(&["-o", "report.svg"], 2, "end it in .json or .csv");
+    refused(&["--rounds", "0"], 2, "expected a whole number");
+    let (status, _, stderr) = bench_of("iteration-1.toml", folder.path(), &["--baseline", &same]);
+    assert_eq!(status, 3, "{stderr}");
+    assert!(stderr.contains("was not measured"), "{stderr}");
+}
+
+/// One triangle, and a camera that looks away from it.
+const AWAY: &str = r#"version = 1
+[image]
+width = 8
+height = 6
+[camera]
+eye = [0.0, 0.0, 5.0]
+target = [0.0, 0.0, 9.0]
+up = [0.0, 1.0, 0.0]
+fov_y_deg = 40.0
+[[mesh]]
+file = "mesh.obj"
+"#;
+
+#[test]
+fn a_scene_that_shows_nothing_is_not_timed() {
+    let folder = TempDir::new().unwrap();
+    fs::write(folder.path().join("away.toml"), AWAY).unwrap();
+    let mesh = "v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n";
+    fs::write(folder.path().join("mesh.obj"), mesh).unwrap();
+    let (status, stdout, stderr) = truecast(folder.path(), &["bench", "away.toml"]);
+    assert_eq!((status, &*stdout), (3, ""), "{stderr}");
+    assert!(stderr.contains("away.toml: no triangle is visible"), "{stderr}");
+}
+
+/// Rows of variants that rasterize and then change the answer.
+fn rows_of(changes: &[fn(&mut VisibilityBuffer)], counting: Counting) -> Vec<Row> {
+    let overrides = Overrides { resolution: Resolution::new(32, 18), ..Overrides::default() };
+    let scene = Scene::load(&scene_file("iteration-0.toml"), &overrides).unwrap();
+    let window = scene.camera.resolution().window();
+    let answer = |counting| rasterize(&scene, window, counting, &|| ());
+    let both = [answer(Counting::All), answer(Counting::All)];
+    let reference = Reference::of(&scene, &both, 50, &Unwatched);
+    assert!(reference.covered_pixels() > 0);
+    let amount = Amount { count: window.len(), unit: Unit::Pixels };
+    let variants: Vec<Variant<'_>> = changes
+        .iter()
+        .map(|change| {
+            Variant::visibility("kernel", amount, move || {
+                let mut buffer = answer(counting);
+                change(&mut buffer);
+                buffer
+            })
+        })
+        .collect();
+    take_turns(&variants, &reference, 3, &Unwatched)
+}
+
+#[test]
+fn a_wrong_kernel_has_no_time_but_its_wrong_pixels() {
+    let lose_two: fn(&mut VisibilityBuffer) = |buffer| {
+        buffer.visible.iter_mut().filter(|v| v.is_some()).take(2).for_each(|v| *v = None);
+    };
+    let rename_one: fn(&mut VisibilityBuffer) = |buffer| {
+        let visible = buffer.visible.iter_mut().flatten().last().unwrap();
+        visible.triangle = TriangleId::new(visible.triangle.get() + 1);
+    };
+    let rows = rows_of(&[|_| (), lose_two, rename_one], Counting::Nearest);
+    let found: Vec<_> = rows.iter().map(|row| (row.wrong_pixels, row.times.is_some())).collect();
+    assert_eq!(found, [(Some(0), true), (Some(2), false), (Some(1), false)]);
+    assert_eq!(rows[0].times.unwrap().n, 3);
+}
+
+#[test]
+fn a_wrong_cover_is_wrong_where_it_is_counted() {
+    let count_more: fn(&mut VisibilityBuffer) = |buffer| {
+        if let Some(cover) = &mut buffer.cover {
+            cover[0].crossed += 1;
+        }
+    };
+    assert_eq!(rows_of(&[count_more], Counting::All)[0].wrong_pixels, Some(1));
+    assert_eq!(rows_of(&[count_more], Counting::Nearest)[0].wrong_pixels, Some(0));
+}
+
+#[test]
+fn both_paths_wrong_alike_are_found_by_the_arbiter() {
+    let overrides = Overrides { resolution: Resolution::new(32, 18), ..Overrides::default() };
+    let scene = Scene::load(&scene_file("iteration-0.toml"), &overrides).unwrap();
+    let window = scene.camera.resolution().window();
+    let right = rasterize(&scene, window, Counting::All, &|| ());
+    let mut wrong = right.clone();
+    wrong.visible.fill(None);
+    let reference = Reference::of(&scene, &[wrong.clone(), wrong.clone()], 200, &Unwatched);
+    assert_eq!((reference.disputed_pixels(), reference.audited_pixels()), (0, 200));
+    assert!(reference.wrong_pixels(&wrong) > 0, "the audit sees covered pixels");
+    // Where the two differ, the arbiter says which is right.
+    let reference = Reference::of(&scene, &[wrong, right.clone()], 0, &Unwatched);
+    assert_eq!(reference.disputed_pixels(), right.covered_pixels());
+    assert_eq!(reference.wrong_pixels(&right), 0);
+}
