@@ -42,7 +42,7 @@ pub struct Hall {
     /// Columns in each of the two rows, at least 1; default 8.
     pub columns: u32,
     /// Fineness of all that is round: a shaft has `detail` cells across each of its 24 flutes. At
-    /// least 1; default 8, which makes about 450 000 triangles with 8 columns. Their number grows
+    /// least 1; default 8, which makes about 430 000 triangles with 8 columns. Their number grows
     /// with the square.
     pub detail: u32,
 }

@@ -30,8 +30,7 @@ const COARSEST: f64 = 4.0;
 pub struct Terrain {
     /// Extent along x and along z, in object units, 1e-18…1e18; default 20.
     pub size: f64,
-    /// Upper bound of the heights, in object units, 1e-18…1e18; default 4. The hills reach about
-    /// three quarters of it.
+    /// Upper bound of the heights, in object units, 1e-18…1e18; default 4.
     pub height: f64,
     /// Cells along each edge, 1…2896: 2 · cells² triangles; default 256.
     pub cells: u32,
