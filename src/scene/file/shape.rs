@@ -5,7 +5,8 @@
 //! `remote` makes the compiler compare them.
 
 use crate::scene::shapes::{
-    Cone, Cuboid, Cylinder, Icosphere, Plane, Shape, Teapot, Torus, UvSphere,
+    Cone, Cuboid, Cylinder, Hall, Icosphere, Plane, Shape, Soup, Teapot, TeapotField, Terrain,
+    Torus, UvSphere,
 };
 use serde::{Deserialize, Deserializer};
 
@@ -38,6 +39,18 @@ pub enum ShapeFile {
     /// `teapot = { segments, lid, bottom }`
     #[serde(with = "TeapotKeys")]
     Teapot(Teapot),
+    /// `terrain = { size, height, cells, seed }`: 2 · cells² triangles, `cells` at most 2896
+    #[serde(with = "TerrainKeys")]
+    Terrain(Terrain),
+    /// `soup = { count, size, extent, seed }`: `count` triangles, at most 16777216
+    #[serde(with = "SoupKeys")]
+    Soup(Soup),
+    /// `hall = { columns, detail }`: `columns` in each of two rows
+    #[serde(with = "HallKeys")]
+    Hall(Hall),
+    /// `teapot_field = { columns, rows, spacing, level }`
+    #[serde(alias = "teapot-field", with = "TeapotFieldKeys")]
+    TeapotField(TeapotField),
 }
 
 impl ShapeFile {
@@ -52,6 +65,10 @@ impl ShapeFile {
             Self::Cylinder(cylinder) => Shape::Cylinder(cylinder),
             Self::Cone(cone) => Shape::Cone(cone),
             Self::Teapot(teapot) => Shape::Teapot(teapot),
+            Self::Terrain(terrain) => Shape::Terrain(terrain),
+            Self::Soup(soup) => Shape::Soup(soup),
+            Self::Hall(hall) => Shape::Hall(hall),
+            Self::TeapotField(field) => Shape::TeapotField(field),
         }
     }
 }
@@ -123,6 +140,40 @@ struct TeapotKeys {
     segments: u32,
     lid: bool,
     bottom: bool,
+}
+
+#[derive(Deserialize)]
+#[serde(remote = "Terrain", default = "Terrain::default", deny_unknown_fields)]
+struct TerrainKeys {
+    size: f64,
+    height: f64,
+    cells: u32,
+    seed: u32,
+}
+
+#[derive(Deserialize)]
+#[serde(remote = "Soup", default = "Soup::default", deny_unknown_fields)]
+struct SoupKeys {
+    count: u32,
+    size: f64,
+    extent: f64,
+    seed: u32,
+}
+
+#[derive(Deserialize)]
+#[serde(remote = "Hall", default = "Hall::default", deny_unknown_fields)]
+struct HallKeys {
+    columns: u32,
+    detail: u32,
+}
+
+#[derive(Deserialize)]
+#[serde(remote = "TeapotField", default = "TeapotField::default", deny_unknown_fields)]
+struct TeapotFieldKeys {
+    columns: u32,
+    rows: u32,
+    spacing: f64,
+    level: u32,
 }
 
 /// Reads one number for all axes, or three.
@@ -197,6 +248,19 @@ mod tests {
                 "teapot = { segments = 3, lid = false, bottom = false }",
                 Shape::Teapot(Teapot { segments: 3, lid: false, bottom: false }),
             ),
+            (
+                "terrain = { size = 3, height = 0.5, cells = 4, seed = 9 }",
+                Shape::Terrain(Terrain { size: 3.0, height: 0.5, cells: 4, seed: 9 }),
+            ),
+            (
+                "soup = { count = 5, size = 0.5, extent = 3, seed = 9 }",
+                Shape::Soup(Soup { count: 5, size: 0.5, extent: 3.0, seed: 9 }),
+            ),
+            ("hall = { columns = 2, detail = 1 }", Shape::Hall(Hall { columns: 2, detail: 1 })),
+            (
+                "teapot_field = { columns = 2, rows = 3, spacing = 8, level = 0 }",
+                Shape::TeapotField(TeapotField { columns: 2, rows: 3, spacing: 8.0, level: 0 }),
+            ),
         ];
         for (text, expected) in written {
             assert_eq!(parse(text), Ok(expected.clone()), "{text}");
@@ -217,6 +281,11 @@ mod tests {
             ("cylinder", Shape::Cylinder(Cylinder::default())),
             ("cone", Shape::Cone(Cone::default())),
             ("teapot", Shape::Teapot(Teapot::default())),
+            ("terrain", Shape::Terrain(Terrain::default())),
+            ("soup", Shape::Soup(Soup::default())),
+            ("hall", Shape::Hall(Hall::default())),
+            ("teapot_field", Shape::TeapotField(TeapotField::default())),
+            ("teapot-field", Shape::TeapotField(TeapotField::default())),
         ];
         for (name, expected) in written {
             assert_eq!(parse(&format!("{name} = {{}}")), Ok(expected), "{name}");

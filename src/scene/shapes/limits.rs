@@ -52,6 +52,21 @@ pub(super) fn check_count(
     Err(ShapeError { shape, parameter, value: value.to_string(), range })
 }
 
+/// Checks that a count is within `least..=most`.
+pub(super) fn check_count_within(
+    shape: &'static str,
+    parameter: &'static str,
+    value: u32,
+    least: u32,
+    most: u32,
+) -> Result<(), ShapeError> {
+    if (least..=most).contains(&value) {
+        return Ok(());
+    }
+    let range = format!("a whole number from {least} to {most}");
+    Err(ShapeError { shape, parameter, value: value.to_string(), range })
+}
+
 /// Checks a number of triangles. The caller forms it in u128: 16 · (2^32)² fits.
 pub(super) fn check_triangles(
     shape: &'static str,

@@ -1,13 +1,14 @@
 //! Tests of all shapes together, by property.
 
 mod closed;
+mod generated;
 mod normals;
 mod ranges;
 mod teapot;
 
 use super::*;
 
-/// Every shape but the teapot, coarsest, odd, default and lopsided.
+/// Every shape but the teapot and those for scenes of many triangles: coarsest, odd, default and lopsided.
 fn samples() -> Vec<Shape> {
     let sphere = |radius, around, rings| Shape::UvSphere(UvSphere { radius, around, rings });
     let torus = |major, minor, around, across| Shape::Torus(Torus { major, minor, around, across });

@@ -1,6 +1,8 @@
 //! What tests ask of a mesh: is it closed, oriented, of the right genus, without empty triangles,
 //! with normals on the right side. Points are the same when their bits are.
 
+use super::vector::minus;
+pub(super) use super::vector::{cross, dot};
 use crate::scene::part::MeshPart;
 use std::collections::HashMap;
 
@@ -44,18 +46,6 @@ pub(super) fn weld(part: &MeshPart) -> Welded {
 
 fn triangles(part: &MeshPart) -> impl Iterator<Item = [[f64; 3]; 3]> + '_ {
     part.corners.iter().map(|corners| corners.map(|corner| part.positions[corner as usize]))
-}
-
-pub(super) fn cross(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
-}
-
-pub(super) fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
-}
-
-fn minus(a: [f64; 3], b: [f64; 3]) -> [f64; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
 /// Volume inside a closed surface, positive when it is oriented outwards.

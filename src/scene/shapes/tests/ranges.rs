@@ -8,7 +8,7 @@ type WithLength = (&'static str, fn(f64) -> Shape);
 /// A shape with one count parameter set, and the least value that works.
 type WithCount = (&'static str, u32, fn(u32) -> Shape);
 
-const LENGTHS: [WithLength; 13] = [
+const LENGTHS: [WithLength; 18] = [
     ("radius", |radius| Shape::UvSphere(UvSphere { radius, ..UvSphere::default() })),
     ("radius", |radius| Shape::Icosphere(Icosphere { radius, ..Icosphere::default() })),
     ("major", |major| Shape::Torus(Torus { major, ..Torus::default() })),
@@ -22,9 +22,14 @@ const LENGTHS: [WithLength; 13] = [
     ("height", |height| Shape::Cylinder(Cylinder { height, ..Cylinder::default() })),
     ("radius", |radius| Shape::Cone(Cone { radius, ..Cone::default() })),
     ("height", |height| Shape::Cone(Cone { height, ..Cone::default() })),
+    ("size", |size| Shape::Terrain(Terrain { size, ..Terrain::default() })),
+    ("height", |height| Shape::Terrain(Terrain { height, ..Terrain::default() })),
+    ("size", |size| Shape::Soup(Soup { size, ..Soup::default() })),
+    ("extent", |extent| Shape::Soup(Soup { extent, ..Soup::default() })),
+    ("spacing", |spacing| Shape::TeapotField(TeapotField { spacing, ..TeapotField::default() })),
 ];
 
-const COUNTS: [WithCount; 13] = [
+const COUNTS: [WithCount; 18] = [
     ("around", 3, |around| Shape::UvSphere(UvSphere { around, ..UvSphere::default() })),
     ("rings", 2, |rings| Shape::UvSphere(UvSphere { rings, ..UvSphere::default() })),
     ("level", 0, |level| Shape::Icosphere(Icosphere { level, ..Icosphere::default() })),
@@ -38,6 +43,11 @@ const COUNTS: [WithCount; 13] = [
     ("around", 3, |around| Shape::Cone(Cone { around, ..Cone::default() })),
     ("stacks", 1, |stacks| Shape::Cone(Cone { stacks, ..Cone::default() })),
     ("segments", 2, |segments| Shape::Teapot(Teapot { segments, ..Teapot::default() })),
+    ("columns", 1, |columns| Shape::Hall(Hall { columns, ..Hall::default() })),
+    ("detail", 1, |detail| Shape::Hall(Hall { detail, ..Hall::default() })),
+    ("columns", 1, |columns| Shape::TeapotField(TeapotField { columns, ..TeapotField::default() })),
+    ("rows", 1, |rows| Shape::TeapotField(TeapotField { rows, ..TeapotField::default() })),
+    ("level", 0, |level| Shape::TeapotField(TeapotField { level, ..TeapotField::default() })),
 ];
 
 #[test]
