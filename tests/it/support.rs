@@ -3,6 +3,7 @@
 pub(crate) mod closed;
 pub(crate) mod configurations;
 pub(crate) mod golden;
+pub(crate) mod names;
 pub(crate) mod program;
 pub(crate) mod rays;
 pub(crate) mod scenes;

@@ -3,10 +3,10 @@
 //! Cases D.1 to D.3 are tests of this folder; those of D.4 to D.6, traversal, scale and
 //! transformations, belong to `scale`.
 
+use crate::support::names::{rust_files, tested, tests_folder};
 use crate::support::sizes::REDUCED;
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
 
 /// A section of the catalogue.
 struct Section {
@@ -41,7 +41,7 @@ const SECTIONS: [Section; 7] = [
 
 #[test]
 fn every_case_is_here() {
-    let tests_folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it");
+    let tests_folder = tests_folder();
     for section in SECTIONS {
         let found: BTreeSet<String> = rust_files(&tests_folder)
             .iter()
@@ -49,7 +49,7 @@ fn every_case_is_here() {
                 let inside = path.strip_prefix(&tests_folder).unwrap();
                 inside.to_str().unwrap().starts_with(section.place)
             })
-            .flat_map(|path| cases_tested(&fs::read_to_string(path).unwrap()))
+            .flat_map(|path| tested(&fs::read_to_string(path).unwrap(), is_case))
             .collect();
         let missing: Vec<&str> =
             section.cases.split(' ').filter(|case| !found.contains(*case)).collect();
@@ -77,40 +77,14 @@ fn sizes_of_all_cases() {
     }
 }
 
-/// The cases that the tests of a source are named after: `h51_h52_boxes` is of two.
-fn cases_tested(source: &str) -> Vec<String> {
-    let mut cases = Vec::new();
-    for (attribute, next) in source.lines().zip(source.lines().skip(1)) {
-        let Some(name) = next.trim().strip_prefix("fn ").filter(|_| attribute.trim() == "#[test]")
-        else {
-            continue;
-        };
-        cases.extend(name.split('_').take_while(|part| is_case(part)).map(str::to_owned));
-    }
-    cases
-}
-
 fn is_case(part: &str) -> bool {
     let [b'h', section @ b'0'..=b'8', number] = part.as_bytes() else { return false };
     section.is_ascii_digit() && (number.is_ascii_digit() || (b'a'..=b'b').contains(number))
-}
-
-fn rust_files(folder: &Path) -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            files.extend(rust_files(&path));
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            files.push(path);
-        }
-    }
-    files
 }
 
 #[test]
 fn only_tests_count_as_cases() {
     let source = "#[test]\nfn h01_fan() {}\nfn h02_left_out() {}\n#[test]\nfn h51_h4a_both() {}\n\
                   // #[test]\nfn h03_commented() {}\n#[test]\nfn hub() {}\n";
-    assert_eq!(cases_tested(source), ["h01", "h51", "h4a"]);
+    assert_eq!(tested(source, is_case), ["h01", "h51", "h4a"]);
 }

@@ -1,8 +1,9 @@
 //! No row is missing: the rows A01 to A79 of the lighting systems against the tests in the sources.
 
+use crate::support::names::{rust_files, tested, tests_folder};
 use std::collections::BTreeSet;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Rows whose test is named after them, wherever under `tests/it` it stands. The others, A49, A57,
 /// A72, A74 and A76, are methods that are only named in the texts, history, and what needs a screen
@@ -14,30 +15,16 @@ const ROWS: &str = "a01 a02 a03 a04 a05 a06 a07 a08 a09 a10 a11 a12 a13 a14 a15 
 
 #[test]
 fn every_row_is_here() {
-    let tests_folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/it");
-    let missing = missing(ROWS, &tests_folder);
+    let missing = missing(ROWS, &tests_folder());
     assert!(missing.is_empty(), "no test is named after {missing:?}");
 }
 
 fn missing<'a>(rows: &'a str, folder: &Path) -> Vec<&'a str> {
     let tested: BTreeSet<String> = rust_files(folder)
         .iter()
-        .flat_map(|path| rows_tested(&fs::read_to_string(path).unwrap()))
+        .flat_map(|path| tested(&fs::read_to_string(path).unwrap(), is_row))
         .collect();
     rows.split_whitespace().filter(|row| !tested.contains(*row)).collect()
-}
-
-/// The rows that the tests of a source are named after.
-fn rows_tested(source: &str) -> Vec<String> {
-    let mut rows = Vec::new();
-    for (attribute, next) in source.lines().zip(source.lines().skip(1)) {
-        let Some(name) = next.trim().strip_prefix("fn ").filter(|_| attribute.trim() == "#[test]")
-        else {
-            continue;
-        };
-        rows.extend(name.split('_').take_while(|part| is_row(part)).map(str::to_owned));
-    }
-    rows
 }
 
 fn is_row(part: &str) -> bool {
@@ -45,22 +32,9 @@ fn is_row(part: &str) -> bool {
     tens.is_ascii_digit() && ones.is_ascii_digit()
 }
 
-fn rust_files(folder: &Path) -> Vec<PathBuf> {
-    let mut files = Vec::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.is_dir() {
-            files.extend(rust_files(&path));
-        } else if path.extension().is_some_and(|extension| extension == "rs") {
-            files.push(path);
-        }
-    }
-    files
-}
-
 #[test]
 fn only_tests_count_as_rows() {
     let source = "#[test]\nfn a01_emission() {}\nfn a02_left_out() {}\n#[test]\nfn a50_a51_both() {}\n\
                   // #[test]\nfn a03_commented() {}\n#[test]\nfn a_plane() {}\n";
-    assert_eq!(rows_tested(source), ["a01", "a50", "a51"]);
+    assert_eq!(tested(source, is_row), ["a01", "a50", "a51"]);
 }
