@@ -9,12 +9,13 @@ mod scenes;
 
 use std::hint::black_box;
 use std::io::{self, Write};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 use truecast::color::LinearRgb;
 use truecast::pixel::Window;
 use truecast::raster::rasterize;
 use truecast::scene::Scene;
 use truecast::shade::{Effects, shade, shade_ungated};
+use truecast::statistics::Statistics;
 use truecast::visibility::{Counting, VisibilityBuffer};
 
 /// Rounds per scene: an odd number, so that the median is one of them.
@@ -47,7 +48,8 @@ fn main() -> io::Result<()> {
                 times.push(started.elapsed());
             }
         }
-        let [called_for, on, forced] = times.map(median).map(|time| 1e3 * time.as_secs_f64());
+        let median_ms = |times: &Vec<_>| Statistics::of(times).map_or(0.0, |of| 1e3 * of.median);
+        let [called_for, on, forced] = times.each_ref().map(median_ms);
         let ratio = forced / called_for;
         writeln!(out, "{name:<24} {called_for:>10.2} {on:>10.2} {forced:>10.2} {ratio:>10.2}")?;
     }
@@ -56,9 +58,4 @@ fn main() -> io::Result<()> {
 
 fn bits(picture: Vec<LinearRgb>) -> Vec<[u64; 3]> {
     picture.into_iter().map(|rgb| rgb.map(f64::to_bits)).collect()
-}
-
-fn median(mut times: Vec<Duration>) -> Duration {
-    times.sort_unstable();
-    times[times.len() / 2]
 }

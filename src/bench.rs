@@ -2,7 +2,7 @@
 //! and no time for a kernel whose answers are wrong.
 //!
 //! `workload` lists the variants, `reference` says what is right, `rounds` lets the variants take
-//! turns, `statistics` condenses their times, `baseline` holds them against an earlier report.
+//! turns, [`crate::statistics`] condenses their times, `baseline` holds them against an earlier report.
 //! Nothing here decides what is visible. Times are wall-clock times of this process on this machine;
 //! no mean over scenes is given, for it would weigh them by their size.
 
@@ -11,7 +11,6 @@ pub mod machine;
 pub mod reference;
 pub mod report;
 pub mod rounds;
-pub mod statistics;
 pub mod workload;
 
 use crate::pixel::Resolution;

@@ -47,7 +47,7 @@
 //! | structure | [`accel`] | BVHs built by obvhs, our own conservative boxes; only `cast` uses it |
 //! | shapes of an answer | [`visibility`], [`film`] | buffers; EXR, PNG, NPY |
 //! | scene | [`scene`] | `SceneFile` as written, `Scene` as meant; OBJ, shapes, camera, lights |
-//! | words | [`pixel`], [`color`], [`mesh`], [`drawing`], [`mutant`] | grids, ids, triangles; marks on a page; the tests' planted mistakes |
+//! | words | [`pixel`], [`color`], [`mesh`], [`drawing`], [`statistics`], [`mutant`] | grids, ids, triangles; marks on a page; times condensed; the tests' planted mistakes |
 //!
 //! To read the program, open `lib.rs`, `visibility.rs`, `cast.rs`, `raster.rs`, `shade.rs` and
 //! `check.rs` in this order.
@@ -126,4 +126,5 @@ pub mod render;
 pub mod scene;
 pub mod shade;
 pub mod sheet;
+pub mod statistics;
 pub mod visibility;

@@ -21,7 +21,7 @@ pub use answerer::Answerer;
 pub use describe::describe;
 pub use develop::develop;
 pub use expose::{Exposure, expose};
-pub use measure::{EffectTime, ShadingTimes, Timing, measure};
+pub use measure::{EffectTime, ShadingTimes, measure};
 pub use planes::{PlaneGroup, PlaneGroups, UnknownPlane};
 pub use progress::{Progress, Unwatched};
 

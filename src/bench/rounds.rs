@@ -4,9 +4,9 @@
 //! variant's own work is timed; comparing its answer and freeing it are not.
 
 use super::reference::Reference;
-use super::statistics::Statistics;
 use super::workload::{Amount, Answer, Variant};
 use crate::render::Progress;
+use crate::statistics::Statistics;
 use crate::visibility::LevelCounts;
 use std::time::{Duration, Instant};
 

@@ -22,7 +22,7 @@ pub(super) fn run(arguments: &ExplainArguments) -> Result<u8, Failure> {
     )?;
     output::print_warnings(&scene.warnings);
     output::print_warnings(&advice(&scene));
-    let times = arguments.measure.then(|| shares::measure(&scene));
+    let times = arguments.measure.then(|| shares::measure(&scene)).flatten();
     if arguments.json {
         output::print_json(&document(arguments, &scene, times.as_ref()));
     } else {

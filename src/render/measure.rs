@@ -9,31 +9,10 @@ use super::expose::expose;
 use super::progress::Unwatched;
 use crate::scene::Scene;
 use crate::shade::Effects;
+use crate::statistics::Statistics;
 use crate::visibility::{Layers, VisibilityBuffer};
 use std::hint::black_box;
-use std::time::{Duration, Instant};
-
-/// A time that was taken several times.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Timing {
-    /// The median over the rounds.
-    pub median: Duration,
-    /// The median absolute deviation from it.
-    pub deviation: Duration,
-}
-
-impl Timing {
-    fn of(times: &[Duration]) -> Self {
-        let median = median(times.to_vec());
-        let deviations = times.iter().map(|time| time.abs_diff(median)).collect();
-        Self { median, deviation: self::median(deviations) }
-    }
-}
-
-fn median(mut times: Vec<Duration>) -> Duration {
-    times.sort_unstable();
-    times[times.len() / 2]
-}
+use std::time::Instant;
 
 /// What leaving one effect out saves.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,7 +20,7 @@ pub struct EffectTime {
     /// The effect.
     pub effect: Effects,
     /// Exposing with the other effects.
-    pub without: Timing,
+    pub without: Statistics,
     /// The part of the time that the effect takes, 0…1: 1 − without/with. Shares do not add up to
     /// 1: effects share set-up, and a light kind takes the terms of its lights with it.
     pub share: f64,
@@ -51,14 +30,14 @@ pub struct EffectTime {
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShadingTimes {
     /// With all effects that the scene calls for.
-    pub all: Timing,
+    pub all: Statistics,
     /// With all of them but supersampling: the time that the shares of the others are parts of.
-    pub one_sample: Timing,
+    pub one_sample: Statistics,
     /// Each effect that the scene calls for.
     pub effects: Vec<EffectTime>,
 }
 
-/// Times exposing in `rounds` rounds, at least one, after one that does not count.
+/// Times exposing in `rounds` rounds, after one that does not count; `None` for no round.
 ///
 /// `answerer` and its answer are those of [`expose`].
 pub fn measure(
@@ -66,7 +45,7 @@ pub fn measure(
     answerer: &Answerer,
     (nearest, layers): (&VisibilityBuffer, &Layers),
     rounds: usize,
-) -> ShadingTimes {
+) -> Option<ShadingTimes> {
     let needed = Effects::of(scene);
     let one_sample = needed.without(Effects::SUPERSAMPLING);
     let called: Vec<_> =
@@ -77,7 +56,7 @@ pub fn measure(
         _ => one_sample.without(effect),
     }));
     let mut times = vec![Vec::new(); variants.len()];
-    for round in 0..=rounds.max(1) {
+    for round in 0..=rounds {
         for (times, &effects) in times.iter_mut().zip(&variants) {
             let started = Instant::now();
             black_box(expose(scene, answerer, (nearest, layers), effects, &Unwatched));
@@ -86,10 +65,11 @@ pub fn measure(
             }
         }
     }
-    let base = Timing::of(&times[0]);
+    let times: Option<Vec<_>> = times.iter().map(|times| Statistics::of(times)).collect();
+    let times = times?;
+    let base = times[0];
     let mut all = base;
-    let effects = called.into_iter().zip(&times[1..]).map(|(effect, times)| {
-        let other = Timing::of(times);
+    let effects = called.into_iter().zip(&times[1..]).map(|(effect, &other)| {
         let (with, without) = match effect {
             Effects::SUPERSAMPLING => {
                 all = other;
@@ -100,10 +80,10 @@ pub fn measure(
         EffectTime { effect, without, share: share(with.median, without.median) }
     });
     let effects = effects.collect();
-    ShadingTimes { all, one_sample: base, effects }
+    Some(ShadingTimes { all, one_sample: base, effects })
 }
 
 /// 1 − without/with; an effect that measures as less than nothing takes nothing.
-fn share(with: Duration, without: Duration) -> f64 {
-    (1.0 - without.as_secs_f64() / with.as_secs_f64().max(1e-9)).clamp(0.0, 1.0)
+fn share(with: f64, without: f64) -> f64 {
+    if with > 0.0 { (1.0 - without / with).clamp(0.0, 1.0) } else { 0.0 }
 }

@@ -121,14 +121,14 @@
 
 mod camera;
 mod generated;
-mod keys;
+pub(crate) mod keys;
 mod light;
 mod mesh;
 mod refused;
 pub mod shape;
 mod switches;
 pub(crate) mod text;
-mod values;
+pub(crate) mod values;
 
 pub use camera::{CameraFile, CameraForm, ImageFile};
 pub use generated::GeneratedFile;

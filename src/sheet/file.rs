@@ -4,8 +4,9 @@
 use super::MAX_CELLS;
 use crate::pixel::{MAX_SIDE, Resolution};
 use crate::scene::error::{Place, SceneError};
-use crate::scene::file::suggestion;
+use crate::scene::file::keys::Keys;
 use crate::scene::file::text::{Faults, Span};
+use crate::scene::file::values::{Misread, Value, kind, text, whole};
 use serde::Deserialize as _;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, ValueDeserializer};
@@ -40,74 +41,6 @@ pub(super) struct Override {
     pub(super) span: Span,
 }
 
-/// A table that is being read, as messages call it.
-struct Table<'a, 't> {
-    table: &'a DeTable<'t>,
-    title: &'static str,
-}
-
-impl<'a, 't> Table<'a, 't> {
-    /// Reports every key that is not among `known`.
-    fn new(
-        table: &'a DeTable<'t>,
-        title: &'static str,
-        known: &[&str],
-        faults: &mut Faults<'_>,
-    ) -> Self {
-        for key in table.keys().filter(|key| !known.contains(&key.get_ref().as_ref())) {
-            let message = format!("unknown key `{}` in {title}", key.get_ref());
-            faults.at_with_help(&key.span(), message, suggestion(key.get_ref(), known));
-        }
-        Self { table, title }
-    }
-
-    /// A value read by `reader`; `None` when it is absent or, which is reported, not `wanted`.
-    fn read<T>(
-        &self,
-        name: &str,
-        wanted: &str,
-        reader: impl Fn(&'a DeValue<'t>) -> Option<T>,
-        faults: &mut Faults<'_>,
-    ) -> Option<Spanned<T>> {
-        let value = self.table.get(name)?;
-        let read = reader(value.get_ref());
-        if read.is_none() {
-            let found = value.get_ref().type_str();
-            let message = format!("`{name}` in {} must be {wanted} (it is a {found})", self.title);
-            faults.at(&value.span(), message);
-        }
-        read.map(|read| Spanned::new(value.span(), read))
-    }
-
-    fn text(&self, name: &str, faults: &mut Faults<'_>) -> Option<Spanned<String>> {
-        self.read(name, "a text", |value| value.as_str().map(str::to_owned), faults)
-    }
-
-    fn texts(&self, name: &str, faults: &mut Faults<'_>) -> Option<Spanned<Vec<String>>> {
-        let text = |value: &Spanned<DeValue<'_>>| value.get_ref().as_str().map(str::to_owned);
-        self.read(name, "a list of texts", |v| v.as_array()?.iter().map(text).collect(), faults)
-    }
-
-    fn whole(
-        &self,
-        name: &str,
-        (least, most): (i64, i64),
-        faults: &mut Faults<'_>,
-    ) -> Option<Spanned<i64>> {
-        let wanted = format!("a whole number from {least} to {most}");
-        let in_range = |number: &i64| (least..=most).contains(number);
-        self.read(name, &wanted, |value| whole(value).filter(in_range), faults)
-    }
-}
-
-fn whole(value: &DeValue<'_>) -> Option<i64> {
-    let digits = value.as_integer()?;
-    i64::from_str_radix(digits.as_str(), digits.radix()).ok()
-}
-
-const KEYS: [&str; 8] =
-    ["version", "scene", "columns", "title", "row_labels", "column_labels", "size", "cell"];
-
 impl SheetFile {
     /// Reads what the text says and reports what is wrong with its form.
     pub(super) fn read(faults: &mut Faults<'_>) -> Self {
@@ -119,44 +52,42 @@ impl SheetFile {
                 return Self::default();
             }
         };
-        let table = Table::new(document.get_ref(), "the sheet file", &KEYS, faults);
+        let table = document.get_ref();
         for (name, form) in [("version", "version = 1"), ("cell", "[[cell]]")] {
-            if !table.table.contains_key(name) {
+            if !table.contains_key(name) {
                 let message = format!("the sheet file lacks `{form}`");
                 faults.errors.push(SceneError::scene(Place::file(faults.file), message));
             }
         }
-        table.whole("version", (VERSION, VERSION), faults);
-        let tables = table.read("cell", "a list of tables: write [[cell]]", tables, faults);
-        let cells: Vec<_> = tables
-            .map(Spanned::into_inner)
-            .into_iter()
-            .flatten()
-            .map(|(cell, span)| CellFile::read(cell, span, faults))
-            .collect();
-        let columns = table.whole("columns", (1, MAX_CELLS as i64), faults);
-        let row_labels = table.texts("row_labels", faults);
-        let column_labels = table.texts("column_labels", faults);
+        let mut keys = Keys::new(table, 0..0, "the sheet file");
+        let version = keys.read("version", whole, faults);
+        within(&version, "version", (VERSION, VERSION), faults);
+        let tables = keys.tables("cell", "[[cell]]", faults);
+        let cells: Vec<_> = tables.into_iter().map(|keys| CellFile::read(keys, faults)).collect();
+        let columns = keys.read("columns", whole, faults);
+        let columns = within(&columns, "columns", (1, MAX_CELLS as i64), faults);
+        let row_labels = keys.read("row_labels", texts, faults);
+        let column_labels = keys.read("column_labels", texts, faults);
+        let size = keys.table("size", "[size]", faults);
         let mut file = Self {
-            scene: table.text("scene", faults),
-            title: table.text("title", faults).map(Spanned::into_inner),
+            scene: keys.read("scene", text, faults),
+            title: keys.read("title", text, faults).map(Spanned::into_inner),
             columns: match (&columns, &column_labels) {
-                (Some(columns), _) => *columns.get_ref() as usize,
+                (Some(columns), _) => *columns as usize,
                 (None, Some(labels)) => labels.get_ref().len().max(1),
                 (None, None) => 0,
             },
-            size: table
-                .read("size", "a table: write [size]", DeValue::as_table, faults)
-                .and_then(|size| read_size(size, faults)),
+            size: size.and_then(|size| read_size(size, faults)),
             cells,
             ..Self::default()
         };
-        if file.columns == 0 && !table.table.contains_key("columns") {
+        keys.close(faults);
+        if file.columns == 0 && !table.contains_key("columns") {
             let message = "the sheet file lacks `columns` (or `column_labels`)";
             faults.errors.push(SceneError::scene(Place::file(faults.file), message));
         }
         file.columns = file.columns.max(1);
-        if file.cells.is_empty() && table.table.contains_key("cell") {
+        if file.cells.is_empty() && table.contains_key("cell") {
             let message = "the sheet file has no cell";
             faults.errors.push(SceneError::scene(Place::file(faults.file), message));
         }
@@ -185,33 +116,64 @@ impl SheetFile {
     }
 }
 
-/// The tables of a list of tables, with their places.
-fn tables<'a, 't>(value: &'a DeValue<'t>) -> Option<Vec<(&'a DeTable<'t>, Span)>> {
-    let tables = value.as_array()?.iter();
-    tables.map(|element| Some((element.get_ref().as_table()?, element.span()))).collect()
+/// A list of strings.
+fn texts(value: &Value<'_>) -> Result<Vec<String>, Misread> {
+    match value.get_ref() {
+        DeValue::Array(elements) => elements.iter().map(text).collect(),
+        other => Err(Misread {
+            span: value.span(),
+            expected: "a list of strings".to_owned(),
+            found: kind(other).to_owned(),
+        }),
+    }
 }
 
-fn read_size(size: Spanned<&DeTable<'_>>, faults: &mut Faults<'_>) -> Option<Resolution> {
-    let span = size.span();
-    let table = Table::new(size.get_ref(), "[size]", &["width", "height"], faults);
-    let mut side = |name: &str| {
-        if !table.table.contains_key(name) {
-            faults.at(&span, format!("[size] lacks `{name}`"));
-        }
-        table.whole(name, (1, i64::from(MAX_SIDE)), faults).map(|side| *side.get_ref() as u32)
-    };
-    let (width, height) = (side("width"), side("height"));
-    Resolution::new(width?, height?)
+/// A whole number in a range; one outside is reported.
+fn within(
+    value: &Option<Spanned<i64>>,
+    name: &str,
+    (least, most): (i64, i64),
+    faults: &mut Faults<'_>,
+) -> Option<i64> {
+    let value = value.as_ref()?;
+    let number = *value.get_ref();
+    if !(least..=most).contains(&number) {
+        let message = match least == most {
+            true => format!("`{name}` must be {least}, not {number}"),
+            false => format!("`{name}` must be from {least} to {most}, not {number}"),
+        };
+        faults.at(&value.span(), message);
+        return None;
+    }
+    Some(number)
+}
+
+fn read_size(mut keys: Keys<'_, '_>, faults: &mut Faults<'_>) -> Option<Resolution> {
+    let (width, height) =
+        (keys.require("width", whole, faults), keys.require("height", whole, faults));
+    let range = (1, i64::from(MAX_SIDE));
+    let (width, height) =
+        (within(&width, "width", range, faults), within(&height, "height", range, faults));
+    keys.close(faults);
+    Resolution::new(width? as u32, height? as u32)
 }
 
 impl CellFile {
-    fn read(table: &DeTable<'_>, span: Span, faults: &mut Faults<'_>) -> Self {
-        let table = Table::new(table, "[[cell]]", &["label", "scene", "set"], faults);
-        let set = table.read("set", "a table of paths and values", DeValue::as_table, faults);
-        let mut set: Vec<_> = set
-            .map(Spanned::into_inner)
+    fn read(mut keys: Keys<'_, '_>, faults: &mut Faults<'_>) -> Self {
+        let label = keys.read("label", text, faults).map(Spanned::into_inner);
+        let scene = keys.read("scene", text, faults);
+        let entries: Vec<_> = match keys.ask("set").map(|set| (set.span(), set.get_ref())) {
+            None => Vec::new(),
+            Some((_, DeValue::Table(set))) => set.iter().collect(),
+            Some((span, other)) => {
+                let found = kind(other);
+                let message = format!("`set` must be a table of paths and values, not {found}");
+                keys.fault(&span, message, faults);
+                Vec::new()
+            }
+        };
+        let mut set: Vec<_> = entries
             .into_iter()
-            .flat_map(|set| set.iter())
             .filter_map(|(key, value)| {
                 let owned = toml::Value::deserialize(ValueDeserializer::from(value.clone()));
                 match owned {
@@ -228,11 +190,8 @@ impl CellFile {
             })
             .collect();
         set.sort_by_key(|entry| entry.span.start);
-        Self {
-            label: table.text("label", faults).map(Spanned::into_inner),
-            scene: table.text("scene", faults),
-            set,
-            span,
-        }
+        let span = keys.header.clone();
+        keys.close(faults);
+        Self { label, scene, set, span }
     }
 }

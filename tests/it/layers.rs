@@ -24,6 +24,7 @@ const ALLOWED: &[Allowed] = &[
     ("color", &[]),
     ("mesh", &["color"]),
     ("drawing", &[]),
+    ("statistics", &[]),
     ("mutant", &[]),
     ("scene", &["pixel", "color", "mesh"]),
     ("visibility", &["pixel", "mesh"]),
@@ -47,6 +48,7 @@ const ALLOWED: &[Allowed] = &[
             "cast",
             "raster",
             "shade",
+            "statistics",
         ],
     ),
     (
@@ -68,7 +70,18 @@ const ALLOWED: &[Allowed] = &[
     ),
     (
         "bench",
-        &["pixel", "mesh", "scene", "visibility", "film", "accel", "exact", "shade", "render"],
+        &[
+            "pixel",
+            "mesh",
+            "statistics",
+            "scene",
+            "visibility",
+            "film",
+            "accel",
+            "exact",
+            "shade",
+            "render",
+        ],
     ),
     (
         "export",

@@ -3,11 +3,11 @@
 use super::super::machine::Machine;
 use super::super::report::to_json;
 use super::super::rounds::Row;
-use super::super::statistics::Statistics;
 use super::super::workload::{Amount, Unit};
 use super::super::{Measured, Report, Subject};
 use super::{Baseline, BaselineError};
 use crate::pixel::Resolution;
+use crate::statistics::Statistics;
 
 /// A row of this median and deviation in seconds; no median is a wrong answer.
 fn row(name: &str, time: Option<[f64; 2]>) -> Row {

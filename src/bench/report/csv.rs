@@ -1,8 +1,8 @@
 //! A report as CSV: one line per scene and variant.
 
 use crate::bench::Report;
-use crate::bench::statistics::Statistics;
 use crate::render::visible::csv_field;
+use crate::statistics::Statistics;
 use std::fmt::Write;
 
 /// Column names. Times of a wrong variant, wrong pixels of one that answers no question of

@@ -2,8 +2,8 @@
 
 use crate::bench::baseline::Compared;
 use crate::bench::rounds::Row;
-use crate::bench::statistics::NOISY_SPREAD;
 use crate::bench::{Measured, Report};
+use crate::statistics::NOISY_SPREAD;
 use std::fmt::Write;
 
 /// The tables of every scene, what is noise among them, and the comparison. Writing to a String

@@ -1,11 +1,8 @@
 //! `truecast explain --measure`: what each effect costs, in words and numbers.
 
 use serde_json::{Value, json};
-use std::time::Duration;
 use truecast::accel::BuildPreset;
-use truecast::render::{
-    self, Answerer, EffectTime, ShadingTimes, Timing, Unwatched, VisibilityPath,
-};
+use truecast::render::{self, Answerer, EffectTime, ShadingTimes, Unwatched, VisibilityPath};
 use truecast::scene::Scene;
 use truecast::shade::Effects;
 use truecast::visibility::Counting;
@@ -14,7 +11,7 @@ use truecast::visibility::Counting;
 const ROUNDS: usize = 7;
 
 /// Sees the scene once and times its shading.
-pub(super) fn measure(scene: &Scene) -> ShadingTimes {
+pub(super) fn measure(scene: &Scene) -> Option<ShadingTimes> {
     let path = VisibilityPath::default();
     let answerer = Answerer::new(scene, path, BuildPreset::Medium, &Unwatched);
     let window = scene.camera.resolution().window();
@@ -36,7 +33,7 @@ pub(super) fn summary(times: &ShadingTimes, scene: &Scene) -> String {
         "\nshading    {:.2} ms (+-{:.2}), {:.2} Mpixel/s at {}x{}",
         milliseconds(times.all.median),
         milliseconds(times.all.deviation),
-        megapixels_per_second(scene, times.all),
+        megapixels_per_second(scene, times).unwrap_or(f64::INFINITY),
         frame.width(),
         frame.height()
     );
@@ -63,7 +60,7 @@ pub(super) fn document(times: &ShadingTimes, scene: &Scene) -> Value {
         "mad_ms": milliseconds(times.all.deviation),
         "one_sample_median_ms": milliseconds(times.one_sample.median),
         "one_sample_mad_ms": milliseconds(times.one_sample.deviation),
-        "megapixels_per_second": megapixels_per_second(scene, times.all),
+        "megapixels_per_second": megapixels_per_second(scene, times),
         "rounds": ROUNDS,
     })
 }
@@ -73,11 +70,10 @@ fn time_of<'a>(times: &'a ShadingTimes, effect: &str) -> Option<&'a EffectTime> 
     times.effects.iter().find(|time| time.effect == wanted)
 }
 
-fn megapixels_per_second(scene: &Scene, timing: Timing) -> f64 {
-    let pixels = scene.camera.resolution().window().len() as f64;
-    pixels * 1e-6 / timing.median.as_secs_f64().max(1e-9)
+fn megapixels_per_second(scene: &Scene, times: &ShadingTimes) -> Option<f64> {
+    times.all.millions_per_second(scene.camera.resolution().window().len())
 }
 
-fn milliseconds(time: Duration) -> f64 {
-    1e3 * time.as_secs_f64()
+fn milliseconds(seconds: f64) -> f64 {
+    1e3 * seconds
 }

@@ -14,12 +14,12 @@ use toml::de::{DeTable, DeValue};
 const SIMILAR: f64 = 0.8;
 
 /// A table that is being read.
-pub(super) struct Keys<'a, 't> {
+pub(crate) struct Keys<'a, 't> {
     table: &'a DeTable<'t>,
     /// The table as messages call it, such as `[[light]]`.
     title: &'static str,
     /// Where the table begins.
-    pub(super) header: Span,
+    pub(crate) header: Span,
     asked: Vec<&'static str>,
     /// Required keys that are not there.
     missing: Vec<&'static str>,
@@ -27,18 +27,18 @@ pub(super) struct Keys<'a, 't> {
 }
 
 impl<'a, 't> Keys<'a, 't> {
-    pub(super) fn new(table: &'a DeTable<'t>, header: Span, title: &'static str) -> Self {
+    pub(crate) fn new(table: &'a DeTable<'t>, header: Span, title: &'static str) -> Self {
         Self { table, title, header, asked: Vec::new(), missing: Vec::new(), clean: true }
     }
 
     /// The value of a key, as it is written.
-    pub(super) fn ask(&mut self, name: &'static str) -> Option<&'a Value<'t>> {
+    pub(crate) fn ask(&mut self, name: &'static str) -> Option<&'a Value<'t>> {
         self.asked.push(name);
         self.table.get(name)
     }
 
     /// The value of a key; `None` when it is absent or faulty, and the fault is reported.
-    pub(super) fn read<T>(
+    pub(crate) fn read<T>(
         &mut self,
         name: &'static str,
         reader: fn(&Value<'_>) -> Result<T, Misread>,
@@ -55,7 +55,7 @@ impl<'a, 't> Keys<'a, 't> {
     }
 
     /// The value of a key that must be there.
-    pub(super) fn require<T>(
+    pub(crate) fn require<T>(
         &mut self,
         name: &'static str,
         reader: fn(&Value<'_>) -> Result<T, Misread>,
@@ -70,7 +70,7 @@ impl<'a, 't> Keys<'a, 't> {
     }
 
     /// The table under a key.
-    pub(super) fn table(
+    pub(crate) fn table(
         &mut self,
         name: &'static str,
         title: &'static str,
@@ -87,7 +87,7 @@ impl<'a, 't> Keys<'a, 't> {
     }
 
     /// The list of tables under a key; each as it comes, in file order.
-    pub(super) fn tables(
+    pub(crate) fn tables(
         &mut self,
         name: &'static str,
         title: &'static str,
@@ -115,7 +115,7 @@ impl<'a, 't> Keys<'a, 't> {
     }
 
     /// The keys that are written, with their places, in file order.
-    pub(super) fn written(&self) -> Vec<Spanned<String>> {
+    pub(crate) fn written(&self) -> Vec<Spanned<String>> {
         let mut keys: Vec<_> = self
             .table
             .keys()
@@ -126,7 +126,7 @@ impl<'a, 't> Keys<'a, 't> {
     }
 
     /// Reports a fault of this table.
-    pub(super) fn fault(
+    pub(crate) fn fault(
         &mut self,
         span: &Span,
         message: impl Into<String>,
@@ -138,7 +138,7 @@ impl<'a, 't> Keys<'a, 't> {
 
     /// Reports every key that is missing and every key that nobody asked for; a missing key that
     /// an unknown one was meant to be is not reported twice. Whether the table had no fault at all.
-    pub(super) fn close(self, faults: &mut Faults<'_>) -> bool {
+    pub(crate) fn close(self, faults: &mut Faults<'_>) -> bool {
         let unknown: Vec<_> = self
             .written()
             .into_iter()

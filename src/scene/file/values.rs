@@ -5,13 +5,13 @@ use toml::Spanned;
 use toml::de::DeValue;
 
 /// A value of the text.
-pub(super) type Value<'t> = Spanned<DeValue<'t>>;
+pub(crate) type Value<'t> = Spanned<DeValue<'t>>;
 
 /// Why a value is not what its key asks for: "must be EXPECTED, not FOUND".
-pub(super) struct Misread {
-    pub(super) span: Span,
-    pub(super) expected: String,
-    pub(super) found: String,
+pub(crate) struct Misread {
+    pub(crate) span: Span,
+    pub(crate) expected: String,
+    pub(crate) found: String,
 }
 
 fn misread<T>(value: &Value<'_>, expected: &str, found: impl Into<String>) -> Result<T, Misread> {
@@ -19,7 +19,7 @@ fn misread<T>(value: &Value<'_>, expected: &str, found: impl Into<String>) -> Re
 }
 
 /// What a value is, in plain words.
-pub(super) fn kind(value: &DeValue<'_>) -> &'static str {
+pub(crate) fn kind(value: &DeValue<'_>) -> &'static str {
     match value {
         DeValue::String(_) => "a string",
         DeValue::Integer(_) => "a whole number",
@@ -32,7 +32,7 @@ pub(super) fn kind(value: &DeValue<'_>) -> &'static str {
 }
 
 /// A text.
-pub(super) fn text(value: &Value<'_>) -> Result<String, Misread> {
+pub(crate) fn text(value: &Value<'_>) -> Result<String, Misread> {
     match value.get_ref() {
         DeValue::String(text) => Ok(text.to_string()),
         other => misread(value, "a string", kind(other)),
@@ -40,7 +40,7 @@ pub(super) fn text(value: &Value<'_>) -> Result<String, Misread> {
 }
 
 /// True or false.
-pub(super) fn boolean(value: &Value<'_>) -> Result<bool, Misread> {
+pub(crate) fn boolean(value: &Value<'_>) -> Result<bool, Misread> {
     match value.get_ref() {
         DeValue::Boolean(boolean) => Ok(*boolean),
         other => misread(value, "true or false", kind(other)),
@@ -48,7 +48,7 @@ pub(super) fn boolean(value: &Value<'_>) -> Result<bool, Misread> {
 }
 
 /// A whole number.
-pub(super) fn whole(value: &Value<'_>) -> Result<i64, Misread> {
+pub(crate) fn whole(value: &Value<'_>) -> Result<i64, Misread> {
     match value.get_ref() {
         DeValue::Integer(digits) => match i64::from_str_radix(digits.as_str(), digits.radix()) {
             Ok(number) => Ok(number),
@@ -59,7 +59,7 @@ pub(super) fn whole(value: &Value<'_>) -> Result<i64, Misread> {
 }
 
 /// A finite number; whole numbers are numbers too.
-pub(super) fn number(value: &Value<'_>) -> Result<f64, Misread> {
+pub(crate) fn number(value: &Value<'_>) -> Result<f64, Misread> {
     match value.get_ref() {
         DeValue::Integer(_) => whole(value).map(|number| number as f64),
         DeValue::Float(digits) => match digits.as_str().parse::<f64>() {
@@ -71,7 +71,7 @@ pub(super) fn number(value: &Value<'_>) -> Result<f64, Misread> {
 }
 
 /// N numbers in a list.
-pub(super) fn numbers<const N: usize>(value: &Value<'_>) -> Result<[f64; N], Misread> {
+pub(crate) fn numbers<const N: usize>(value: &Value<'_>) -> Result<[f64; N], Misread> {
     let expected = format!("a list of {N} numbers");
     let DeValue::Array(elements) = value.get_ref() else {
         return misread(value, &expected, kind(value.get_ref()));
@@ -90,7 +90,7 @@ pub(super) fn numbers<const N: usize>(value: &Value<'_>) -> Result<[f64; N], Mis
 }
 
 /// One number for all three axes, or three.
-pub(super) fn one_or_three(value: &Value<'_>) -> Result<[f64; 3], Misread> {
+pub(crate) fn one_or_three(value: &Value<'_>) -> Result<[f64; 3], Misread> {
     match value.get_ref() {
         DeValue::Array(_) => numbers(value),
         DeValue::Integer(_) | DeValue::Float(_) => number(value).map(|number| [number; 3]),
@@ -99,7 +99,7 @@ pub(super) fn one_or_three(value: &Value<'_>) -> Result<[f64; 3], Misread> {
 }
 
 /// N rows of N numbers, or the same numbers in one list, row by row.
-pub(super) fn matrix<const N: usize>(value: &Value<'_>) -> Result<[[f64; N]; N], Misread> {
+pub(crate) fn matrix<const N: usize>(value: &Value<'_>) -> Result<[[f64; N]; N], Misread> {
     let expected = format!("{N} lists of {N} numbers (or the {} numbers, row by row)", N * N);
     let DeValue::Array(elements) = value.get_ref() else {
         return misread(value, &expected, kind(value.get_ref()));
