@@ -235,7 +235,7 @@ fn faults_of_the_sheet_name_its_line() {
         ("version = 1", "version = 2", &["sheet.toml:1:11", "`version`"]),
         ("columns = 2", "columns = 3", &["sheet.toml:6:17", "`column_labels`", "give 3"]),
         ("[\"up\", \"low\"]", "[\"up\"]", &["sheet.toml:5:14", "`row_labels`", "give 2 texts"]),
-        ("title = \"Two\"", "title = 2", &["sheet.toml:4:9", "`title`", "a text"]),
+        ("title = \"Two\"", "title = 2", &["sheet.toml:4:9", "`title` must be a string"]),
         ("label = \"plain\"", "lable = \"\"", &["sheet.toml:8:1", "`lable`", "`label`"]),
         ("title = \"Two\"", "size = { width = 8 }", &["sheet.toml:4:8", "lacks `height`"]),
         ("version = 1", "version = = 1", &["sheet.toml:1:", "not TOML"]),
