@@ -126,5 +126,6 @@ pub mod render;
 pub mod scene;
 pub mod shade;
 pub mod sheet;
+pub mod simd;
 pub mod statistics;
 pub mod visibility;
