@@ -171,7 +171,8 @@ impl WideTree {
                 Linked::Leaf(leaf) => {
                     let mut first = 0;
                     while first < leaf.count {
-                        let met = if self.is_linear {
+                        // A mirror image needs that its box behind the eye is let through too.
+                        let met = if self.is_linear || mutant::is(Mutant::MirrorGhost) {
                             Met { near: [0.0; WIDTH], boxes: u32::MAX }
                         } else {
                             dispatch!(
@@ -255,7 +256,11 @@ fn meet_triangles<S: Simd>(
         let mut hi = lo;
         for corner in 1..3 {
             let at = (3 * corner + axis) * leaf.count + first;
-            let other = f32x16::from_slice(simd, &rows[at..at + WIDTH]);
+            let mut other = f32x16::from_slice(simd, &rows[at..at + WIDTH]);
+            if mutant::is(Mutant::EdgeBoxes) {
+                let first = f32x16::from_slice(simd, &rows[axis * leaf.count + first..][..WIDTH]);
+                other = first - (first - other);
+            }
             (lo, hi) = (lo.min(other), hi.max(other));
         }
         (vectors[0][axis], vectors[1][axis]) = (lo, hi);

@@ -83,7 +83,7 @@ pub(crate) const ROWS: &[Row] = &[
     row(Mutant::ClosedEdges, RASTER, "H03 grid_exact"),
     // Rays that walk together.
     row(Mutant::BelievedRows, CAST, "H03 grid_exact"),
-    row(Mutant::NearerBlocks, CAST, "H23 coplanar_tilted"),
+    row(Mutant::NearerBlocks, CAST, "H23 long coplanar"),
     row(Mutant::StaleTies, CAST, "H22 near after a tie"),
     row(Mutant::TightCone, CAST, "H16 aimed rays"),
     // What is reported.
