@@ -19,6 +19,7 @@ pub use self::png::{ClipCount, append_codes, encode_picture, encode_png, srgb_pi
 pub use self::read::{NumberPlane, Numbers, PackedOrder, load_numbers};
 pub use self::write::{
     Format, check_target, check_writable, format_of, load_exr, save, write_atomic,
+    write_atomic_with,
 };
 
 use crate::pixel::{Resolution, Window};

@@ -1,5 +1,6 @@
 //! `truecast render`: scene in, pictures out.
 
+mod outputs;
 mod report;
 
 use super::arguments::{AccuracyWord, PathWord, RenderArguments};
@@ -7,16 +8,16 @@ use super::failure::Failure;
 use super::output::{self, Writing};
 use super::progress::Bar;
 use super::{OK, on_threads};
+use outputs::Outputs;
+use report::Report;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use truecast::film::{
-    ClipCount, Film, FilmError, Format, encode_exr, encode_npy_ids, encode_png, format_of,
-};
+use truecast::film::{ClipCount, Film, Format, format_of};
 use truecast::pixel::{Resolution, Window};
 use truecast::raster::DepthBuffer;
 use truecast::render::visible::{Listing, to_csv};
 use truecast::render::{
-    Accuracy, Frame, PlaneGroup, PlaneGroups, RenderOptions, VisibilityPath, render,
+    Accuracy, PlaneGroup, PlaneGroups, RenderOptions, VisibilityPath, render_bands,
 };
 use truecast::scene::{Overrides, Scene};
 use truecast::shade::Effects;
@@ -60,26 +61,36 @@ pub(super) fn run(arguments: &RenderArguments, writing: &Writing) -> Result<u8, 
             .map(|_| arguments.subpixel.map_or(Listing::Centres, Listing::Subsamples)),
         ..RenderOptions::default()
     };
-    let (frame, written, write_time) = on_threads(arguments.threads, || {
-        let frame = render(&scene, &options, &bar);
+    let frame = scene.camera.resolution();
+    let mut outputs = Outputs::new(&targets, frame, options.window.unwrap_or(frame.window()));
+    let (account, written, write_time) = on_threads(arguments.threads, || {
+        let append = |band: Film| outputs.append(&band);
+        let account = render_bands(&scene, &options, &bar, append)?;
         bar.finish();
-        let started = Instant::now();
-        let mut written = write_all(&frame, &targets, writing)?;
-        if let (Some(path), Some(list)) = (&arguments.visible, &frame.visible) {
+        let (started, encoding) = (Instant::now(), outputs.encoding);
+        let mut written = outputs.write(writing)?;
+        if let (Some(path), Some(list)) = (&arguments.visible, &account.visible) {
             let text = to_csv(&scene, list);
             output::save(writing, path, text.as_bytes())?;
             written.push(Written { path: path.clone(), bytes: text.len(), clipped: None });
         }
-        Ok::<_, Failure>((frame, written, started.elapsed()))
+        let encoding = outputs.encoding - encoding;
+        Ok::<_, Failure>((account, written, started.elapsed().saturating_sub(encoding)))
     })??;
     let total = started.elapsed();
+    let report = Report {
+        arguments,
+        options: &options,
+        scene: &scene,
+        account: &account,
+        outputs: &outputs,
+        written: &written,
+    };
     if arguments.json {
         let times = [("load", load_time), ("write", write_time), ("total", total)];
-        output::print_json(&report::document(
-            arguments, &options, &scene, &frame, &written, &times,
-        ));
+        output::print_json(&report.document(&times));
     } else if !arguments.quiet {
-        output::print(&report::summary(arguments.subpixel, &scene, &frame, &written, total));
+        output::print(&report.summary(total));
     }
     Ok(OK)
 }
@@ -202,32 +213,5 @@ fn window(arguments: &RenderArguments, frame: Resolution) -> Result<Option<Windo
             frame.width(),
             frame.height()
         ))
-    })
-}
-
-fn write_all(
-    frame: &Frame,
-    targets: &[(PathBuf, Format)],
-    writing: &Writing,
-) -> Result<Vec<Written>, Failure> {
-    targets
-        .iter()
-        .map(|(path, format)| {
-            let (bytes, clipped) = encode(&frame.film, *format)?;
-            output::save(writing, path, &bytes)?;
-            Ok(Written { path: path.clone(), bytes: bytes.len(), clipped })
-        })
-        .collect()
-}
-
-/// The film in a format; for PNG also how much was clipped.
-fn encode(film: &Film, format: Format) -> Result<(Vec<u8>, Option<ClipCount>), FilmError> {
-    Ok(match format {
-        Format::Exr => (encode_exr(film)?, None),
-        Format::Npy => (encode_npy_ids(film)?, None),
-        Format::Png => {
-            let (bytes, clipped) = encode_png(film)?;
-            (bytes, Some(clipped))
-        }
     })
 }

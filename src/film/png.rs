@@ -23,7 +23,7 @@ pub struct ClipCount {
 
 impl ClipCount {
     /// Adds another part of the picture.
-    pub(super) fn add(&mut self, other: Self) {
+    pub fn add(&mut self, other: Self) {
         self.above += other.above;
         self.below += other.below;
     }
