@@ -12,7 +12,7 @@ use outputs::Outputs;
 use report::Report;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use truecast::film::{ClipCount, Film, Format, format_of};
+use truecast::film::{ClipCount, Format, format_of};
 use truecast::pixel::{Resolution, Window};
 use truecast::raster::DepthBuffer;
 use truecast::render::visible::{Listing, to_csv};
@@ -33,6 +33,11 @@ struct Written {
 }
 
 pub(super) fn run(arguments: &RenderArguments, writing: &Writing) -> Result<u8, Failure> {
+    on_threads(arguments.threads, || run_here(arguments, writing))?
+}
+
+/// From the scene to the files, on the threads of the pool that this runs in.
+fn run_here(arguments: &RenderArguments, writing: &Writing) -> Result<u8, Failure> {
     let accuracy = accuracy(arguments)?;
     let targets = targets(arguments)?;
     let planes = planes(arguments, &targets)?;
@@ -63,20 +68,16 @@ pub(super) fn run(arguments: &RenderArguments, writing: &Writing) -> Result<u8, 
     };
     let frame = scene.camera.resolution();
     let mut outputs = Outputs::new(&targets, frame, options.window.unwrap_or(frame.window()));
-    let (account, written, write_time) = on_threads(arguments.threads, || {
-        let append = |band: Film| outputs.append(&band);
-        let account = render_bands(&scene, &options, &bar, append)?;
-        bar.finish();
-        let (started, encoding) = (Instant::now(), outputs.encoding);
-        let mut written = outputs.write(writing)?;
-        if let (Some(path), Some(list)) = (&arguments.visible, &account.visible) {
-            let text = to_csv(&scene, list);
-            output::save(writing, path, text.as_bytes())?;
-            written.push(Written { path: path.clone(), bytes: text.len(), clipped: None });
-        }
-        let encoding = outputs.encoding - encoding;
-        Ok::<_, Failure>((account, written, started.elapsed().saturating_sub(encoding)))
-    })??;
+    let account = render_bands(&scene, &options, &bar, |band| outputs.append(&band))?;
+    bar.finish();
+    let (writing_began, encoding) = (Instant::now(), outputs.encoding);
+    let mut written = outputs.write(writing)?;
+    if let (Some(path), Some(list)) = (&arguments.visible, &account.visible) {
+        let text = to_csv(&scene, list);
+        output::save(writing, path, text.as_bytes())?;
+        written.push(Written { path: path.clone(), bytes: text.len(), clipped: None });
+    }
+    let write_time = writing_began.elapsed().saturating_sub(outputs.encoding - encoding);
     let total = started.elapsed();
     let report = Report {
         arguments,

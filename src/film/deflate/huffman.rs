@@ -7,9 +7,15 @@ use super::symbols::{BitWriter, DISTANCE_SYMBOLS};
 /// Literals, the end and lengths.
 pub(super) const SYMBOLS: usize = 286;
 
-/// Longest code: four of them and the 7 bits that a writer may still hold are 55 bits, so that four
+/// Longest code: four of them and the 7 bits that a writer may still hold are 63 bits, so that four
 /// literals are written at once. The format would allow 15.
-const DEEPEST: u8 = 12;
+const DEEPEST: u8 = 14;
+
+/// Counts of at least this share of all make no code longer than [`DEEPEST`]: a tree of depth d weighs
+/// at least F(d + 2) of its lightest leaf, F being Fibonacci's numbers (M. Buro, "On the maximum
+/// length of Huffman codes", 1993). Raised so, 286 counts sum up to at most (1 + 286/1024) of what
+/// they were, 1310 of the lightest, which is less than F(17) = 1597.
+const LEAST_SHARE: u32 = 1024;
 
 /// Symbols of the code that tells code lengths.
 const LENGTH_SYMBOLS: usize = 19;
@@ -82,25 +88,22 @@ impl Code {
 
 /// Lengths of the codes, none above [`DEEPEST`]; 0 where a symbol does not occur.
 pub(super) fn lengths_of(counts: &[u32; SYMBOLS]) -> [u8; SYMBOLS] {
-    // Counts that lie closer together make the tree flatter; equal ones make it 9 deep.
-    let mut shift = 0;
-    loop {
-        let lengths = tree(counts, shift);
-        if lengths.iter().all(|&length| length <= DEEPEST) {
-            return lengths;
-        }
-        shift += 1;
+    let lengths = tree(counts, 1);
+    if lengths.iter().all(|&length| length <= DEEPEST) {
+        return lengths;
     }
+    tree(counts, counts.iter().sum::<u32>().div_ceil(LEAST_SHARE))
 }
 
-/// Depths of the leaves of Huffman's tree, for counts divided by 2^shift.
-fn tree(counts: &[u32; SYMBOLS], shift: u32) -> [u8; SYMBOLS] {
-    let occurring = (0_usize..).zip(counts).filter(|&(_, &count)| count > 0);
-    let mut leaves: Vec<(u32, usize)> =
-        occurring.map(|(symbol, &count)| ((count >> shift).max(1), symbol)).collect();
+/// Depths of the leaves of Huffman's tree over the counts that are not 0, none taken for less than
+/// `least`.
+fn tree(counts: &[u32; SYMBOLS], least: u32) -> [u8; SYMBOLS] {
+    let occurring = (0_u16..).zip(counts).filter(|&(_, &count)| count > 0);
+    let mut leaves: Vec<(u32, u16)> = Vec::with_capacity(SYMBOLS + 1);
+    leaves.extend(occurring.map(|(symbol, &count)| (count.max(least), symbol)));
     if leaves.len() == 1 {
         // A code of one symbol is not complete; a second makes it so.
-        leaves.push((1, usize::from(leaves[0].1 == 0)));
+        leaves.push((1, u16::from(leaves[0].1 == 0)));
     }
     leaves.sort_unstable();
     // Nodes: the leaves by weight, then the inner nodes, which come by weight too.
@@ -121,12 +124,12 @@ fn tree(counts: &[u32; SYMBOLS], shift: u32) -> [u8; SYMBOLS] {
     }
     let mut depths = vec![0_u8; 2 * count];
     for node in (0..2 * count - 2).rev() {
-        // At most 64 levels: weights sum up to less than 2^32, and they grow as Fibonacci's numbers.
+        // Weights sum up to less than 2^32 < F(49): below 64 levels.
         depths[node] = depths[parents[node]] + 1;
     }
     let mut lengths = [0; SYMBOLS];
     for (&(_, symbol), &depth) in leaves.iter().zip(&depths) {
-        lengths[symbol] = depth;
+        lengths[usize::from(symbol)] = depth;
     }
     lengths
 }

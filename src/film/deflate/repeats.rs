@@ -7,6 +7,10 @@ use std::ops::Range;
 /// Shortest repeat that is taken: three bytes cost about as much as their literals.
 const SHORTEST: u32 = 4;
 
+/// One more place is stepped over per so many literals: a repeat that is 8 bytes longer than this
+/// part of the literals before it is still found.
+const PATIENCE: usize = 128;
+
 /// Bytes as they are, then a repeat; the last piece of a block has a repeat of length 0.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Piece {
@@ -39,7 +43,8 @@ pub(super) fn find_pieces(
         let skip = differences.map(|difference| SHORTEST - difference.leading_zeros() / 8);
         let skip = skip.into_iter().fold(SHORTEST, u32::min);
         if skip > 0 {
-            at += skip as usize;
+            // Where nothing was found for long, little is to be found: look at fewer places.
+            at += skip as usize + (at - from) / PATIENCE;
             continue;
         }
         let mut best = (0, 0);
@@ -51,7 +56,11 @@ pub(super) fn find_pieces(
                 }
             }
         }
-        let (length, distance) = best;
+        let (mut length, distance) = best;
+        // A place that was stepped over may belong to it.
+        let back = common_before(bytes, from..at, distances[distance]);
+        at -= back;
+        length += back;
         pieces.push(Piece {
             literals: (at - from) as u32,
             length: length as u32,
@@ -61,6 +70,12 @@ pub(super) fn find_pieces(
         from = at;
     }
     pieces.push(Piece { literals: (end - from) as u32, length: 0, distance: 0 });
+}
+
+/// How many bytes at the end of a range equal those at `distance` before.
+fn common_before(bytes: &[u8], range: Range<usize>, distance: usize) -> usize {
+    let start = range.start.max(distance);
+    (start..range.end).rev().take_while(|&at| bytes[at] == bytes[at - distance]).count()
 }
 
 /// Eight bytes from `at` on, which must be there.

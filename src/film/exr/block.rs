@@ -60,18 +60,21 @@ fn separate_row(row: impl Iterator<Item = u32>, even: &mut [u8], odd: &mut [u8])
 
 /// Every byte but the first less the one before it, plus 128.
 fn to_differences(bytes: &mut [u8]) {
-    /// Bytes that are worked on at a time: from a copy, so that none waits for another.
+    /// Bytes that are worked on at a time, from a copy, so that none waits for another.
     const CHUNK: usize = 64;
     // Less 128 and plus 128: the first byte stays.
     let mut before = 128;
-    for chunk in bytes.chunks_mut(CHUNK) {
-        let mut shifted = [0; CHUNK];
-        shifted[0] = before;
-        shifted[1..chunk.len()].copy_from_slice(&chunk[..chunk.len() - 1]);
-        before = chunk[chunk.len() - 1];
-        for (byte, before) in chunk.iter_mut().zip(shifted) {
-            *byte = byte.wrapping_sub(before).wrapping_add(128);
+    let (chunks, rest) = bytes.as_chunks_mut::<CHUNK>();
+    for chunk in chunks {
+        let copy = *chunk;
+        chunk[0] = copy[0].wrapping_sub(before).wrapping_add(128);
+        for (byte, before) in chunk[1..].iter_mut().zip(&copy) {
+            *byte = byte.wrapping_sub(*before).wrapping_add(128);
         }
+        before = copy[CHUNK - 1];
+    }
+    for byte in rest {
+        (*byte, before) = (byte.wrapping_sub(before).wrapping_add(128), *byte);
     }
 }
 
