@@ -6,6 +6,7 @@
 mod accuracy;
 mod answerer;
 mod bands;
+mod choice;
 mod describe;
 mod develop;
 pub mod expose;
@@ -20,6 +21,7 @@ pub mod visible;
 
 pub use accuracy::Accuracy;
 pub use answerer::Answerer;
+pub use choice::{Prediction, predict};
 pub use describe::describe;
 pub use develop::develop;
 pub use expose::{Exposure, expose};
@@ -59,7 +61,8 @@ pub struct RenderOptions {
     pub window: Option<Window>,
     /// Which planes the film gets.
     pub planes: PlaneGroups,
-    /// BVH build preset of the cast path. It changes time, never a bit of the film.
+    /// Build preset of the cast path's BVH, or of one for shadows alone. It changes time, never a bit
+    /// of the film.
     pub preset: BuildPreset,
     /// Whether the visible triangles are listed, and how finely they are looked for.
     pub listing: Option<Listing>,
@@ -117,6 +120,10 @@ pub struct Account {
     pub visible: Option<Vec<VisibleTriangle>>,
     /// The film's description.
     pub description: String,
+    /// Memory of the scene's triangles and their attributes, in bytes.
+    pub mesh_bytes: usize,
+    /// Memory of the BVH, in bytes; `None` where none was built.
+    pub tree_bytes: Option<usize>,
     /// Where the time went.
     pub times: FrameTimes,
 }

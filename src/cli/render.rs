@@ -12,12 +12,14 @@ use outputs::Outputs;
 use report::Report;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
+use truecast::accel::BuildPreset;
 use truecast::film::{ClipCount, Format, format_of};
 use truecast::pixel::{Resolution, Window};
 use truecast::raster::DepthBuffer;
 use truecast::render::visible::{Listing, to_csv};
 use truecast::render::{
-    Accuracy, PlaneGroup, PlaneGroups, RenderOptions, VisibilityPath, render_bands,
+    Accuracy, PlaneGroup, PlaneGroups, Prediction, RenderOptions, VisibilityPath, predict,
+    render_bands,
 };
 use truecast::scene::{Overrides, Scene};
 use truecast::shade::Effects;
@@ -52,19 +54,19 @@ fn run_here(arguments: &RenderArguments, writing: &Writing) -> Result<u8, Failur
         output::print_warnings(&scene.warnings);
     }
     refuse_effects(accuracy, &scene)?;
+    let window = window(arguments, scene.camera.resolution())?;
+    let predictions = predict(&scene, window.unwrap_or(scene.camera.resolution().window()));
+    let (path, preset) = choose(arguments, &predictions);
     let options = RenderOptions {
-        path: match arguments.path {
-            PathWord::Cast => VisibilityPath::Cast,
-            PathWord::Raster => VisibilityPath::Raster,
-        },
+        path,
+        preset,
         accuracy,
-        window: window(arguments, scene.camera.resolution())?,
+        window,
         planes,
         listing: arguments
             .visible
             .as_ref()
             .map(|_| arguments.subpixel.map_or(Listing::Centres, Listing::Subsamples)),
-        ..RenderOptions::default()
     };
     let frame = scene.camera.resolution();
     let mut outputs = Outputs::new(&targets, frame, options.window.unwrap_or(frame.window()));
@@ -82,6 +84,7 @@ fn run_here(arguments: &RenderArguments, writing: &Writing) -> Result<u8, Failur
     let report = Report {
         arguments,
         options: &options,
+        predictions: &predictions,
         scene: &scene,
         account: &account,
         outputs: &outputs,
@@ -112,6 +115,21 @@ fn load(arguments: &RenderArguments) -> Result<Scene, Failure> {
     })
 }
 
+/// The path that is asked for, or the quickest, and how its tree is built.
+fn choose(
+    arguments: &RenderArguments,
+    predictions: &[Prediction],
+) -> (VisibilityPath, BuildPreset) {
+    let asked = arguments.path.map(|word| match word {
+        PathWord::Cast => VisibilityPath::Cast,
+        PathWord::Raster => VisibilityPath::Raster,
+    });
+    let mut ways = predictions.iter();
+    let quickest = ways.find(|way| asked.is_none_or(|path| way.path == path));
+    let path = quickest.map_or(VisibilityPath::default(), |way| way.path);
+    (path, quickest.and_then(|way| way.preset).unwrap_or_default())
+}
+
 /// How visibility is decided; refuses what the path does not have.
 fn accuracy(arguments: &RenderArguments) -> Result<Accuracy, Failure> {
     if arguments.accuracy == AccuracyWord::Exact {
@@ -124,7 +142,7 @@ fn accuracy(arguments: &RenderArguments) -> Result<Accuracy, Failure> {
             (None, None) => Ok(Accuracy::Exact),
         };
     }
-    if arguments.path == PathWord::Cast {
+    if arguments.path != Some(PathWord::Raster) {
         let message = "--accuracy watertight exists on --path raster, not on --path cast";
         return Err(Failure::usage(message.to_owned()));
     }

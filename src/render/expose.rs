@@ -40,7 +40,7 @@ pub fn expose(
     effects: Effects,
     progress: &dyn Progress,
 ) -> Exposure {
-    let built = occluders(scene, answerer, effects, progress);
+    let built = occluders(scene, answerer, effects, BuildPreset::Medium, progress);
     expose_with(scene, answerer, built.of(answerer), (nearest, layers), effects, progress)
 }
 
@@ -62,12 +62,13 @@ pub(super) fn occluders(
     scene: &Scene,
     answerer: &Answerer,
     effects: Effects,
+    preset: BuildPreset,
     progress: &dyn Progress,
 ) -> Occluders {
     let is_needed = matches!(answerer, Answerer::Raster) && effects.has(Effects::SHADOWS);
     Occluders(is_needed.then(|| {
         progress.begin("build", 1);
-        let built = Accelerator::build(&scene.mesh, BuildPreset::Medium);
+        let built = Accelerator::build(&scene.mesh, preset);
         progress.step();
         built
     }))

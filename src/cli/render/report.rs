@@ -2,12 +2,13 @@
 
 use super::Written;
 use super::outputs::Outputs;
-use crate::cli::arguments::{PathWord, RenderArguments};
+use crate::cli::arguments::RenderArguments;
+use crate::cli::prediction::{path_name, predictions_document, preset_name};
 use serde_json::json;
 use std::time::Duration;
 use truecast::pixel::Window;
 use truecast::render::visible::SubsampleGrid;
-use truecast::render::{Account, Accuracy, RenderOptions};
+use truecast::render::{Account, Accuracy, Prediction, RenderOptions};
 use truecast::scene::Scene;
 use truecast::shade::Notes;
 
@@ -15,6 +16,7 @@ use truecast::shade::Notes;
 pub(super) struct Report<'a> {
     pub(super) arguments: &'a RenderArguments,
     pub(super) options: &'a RenderOptions,
+    pub(super) predictions: &'a [Prediction],
     pub(super) scene: &'a Scene,
     pub(super) account: &'a Account,
     pub(super) outputs: &'a Outputs<'a>,
@@ -65,6 +67,15 @@ fn notes(notes: &Notes) -> [(u64, &'static str, &'static str); 8] {
         ),
         (notes.non_finite, "non_finite", "pixels whose radiance left the range of f64"),
     ]
+}
+
+fn per_triangle(bytes: usize, scene: &Scene) -> f64 {
+    (10.0 * bytes as f64 / scene.mesh.len().max(1) as f64).round() / 10.0
+}
+
+/// Of mesh and tree.
+fn bytes_per_triangle(account: &Account, scene: &Scene) -> f64 {
+    per_triangle(account.mesh_bytes + account.tree_bytes.unwrap_or(0), scene)
 }
 
 fn milliseconds(time: Duration) -> f64 {
@@ -125,7 +136,7 @@ impl Report<'_> {
 
     /// The `--json` document.
     pub(super) fn document(&self, times: &[(&str, Duration)]) -> serde_json::Value {
-        let Self { arguments, options, scene, account, outputs, written } = *self;
+        let Self { arguments, options, predictions, scene, account, outputs, written } = *self;
         let (accuracy, window) = (options.accuracy, self.window());
         let frame = scene.camera.resolution();
         let stages = [
@@ -159,7 +170,16 @@ impl Report<'_> {
         json!({
             "schema": "truecast/render/1",
             "scene": arguments.scene.as_ref().map(|path| path.display().to_string()),
-            "path": match arguments.path { PathWord::Cast => "cast", PathWord::Raster => "raster" },
+            "path": path_name(options.path),
+            "path_chosen_by": if arguments.path.is_some() { "user" } else { "prediction" },
+            "preset": account.tree_bytes.map(|_| preset_name(options.preset)),
+            "predictions": predictions_document(predictions),
+            "memory": {
+                "mesh_bytes": account.mesh_bytes,
+                "bvh_bytes": account.tree_bytes,
+                "bytes_per_triangle": bytes_per_triangle(account, scene),
+                "bvh_bytes_per_triangle": account.tree_bytes.map(|bytes| per_triangle(bytes, scene)),
+            },
             "accuracy": accuracy.name(),
             "subpixel_bits": match accuracy {
                 Accuracy::Exact => None,
