@@ -12,6 +12,7 @@ mod failure;
 mod lobe;
 mod output;
 mod pixel;
+mod prediction;
 mod progress;
 mod render;
 mod sheet;
