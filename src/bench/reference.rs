@@ -106,12 +106,19 @@ impl Reference {
     /// such plane for this window.
     pub fn wrong_pixels_of_film(&self, film: &Film) -> usize {
         match film.plane("id.prim") {
-            Some(Samples::Uint(ids)) if film.window == self.window => {
-                let expected = self.ids.iter().map(|id| id.map_or(NOTHING, TriangleId::get));
-                ids.iter().zip(expected).filter(|(found, expected)| **found != *expected).count()
-            }
+            Some(Samples::Uint(ids)) => self.wrong_ids(film.window, ids.iter().copied()),
             _ => self.ids.len(),
         }
+    }
+
+    /// At how many pixels of a window other ids than the right ones stand, row by row, with
+    /// `u32::MAX` for nothing; all of them if it is another window.
+    pub fn wrong_ids(&self, window: Window, ids: impl ExactSizeIterator<Item = u32>) -> usize {
+        if window != self.window || ids.len() != self.ids.len() {
+            return self.ids.len();
+        }
+        let expected = self.ids.iter().map(|id| id.map_or(NOTHING, TriangleId::get));
+        ids.zip(expected).filter(|(found, expected)| found != expected).count()
     }
 }
 

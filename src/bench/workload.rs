@@ -3,9 +3,9 @@
 //! Another accuracy, another width of SIMD or another program's kernel is one more variant. A
 //! scene of overlapping triangles can take minutes per round with [`BuildPreset::VerySlow`].
 
+use super::peers::Hits;
 use crate::accel::{Accelerator, BuildPreset};
 use crate::film::Film;
-use crate::pixel::Window;
 use crate::render::{
     Accuracy, Answerer, Exposure, PlaneGroups, Progress, RenderOptions, Unwatched, VisibilityPath,
     develop, expose, render,
@@ -14,6 +14,56 @@ use crate::scene::Scene;
 use crate::shade::Effects;
 use crate::visibility::{Counting, VisibilityBuffer};
 use std::hint::black_box;
+use std::sync::Arc;
+
+/// A kind of work, of which a workload may leave out any.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Work {
+    /// Building a tree over the mesh.
+    Build,
+    /// The nearest triangle along one ray per pixel.
+    Closest,
+    /// The nearest triangle at every pixel by the rasterizer.
+    Raster,
+    /// Every triangle at every pixel, counted, by either path.
+    Cover,
+    /// Colours from what is visible, and the planes of the film.
+    Shade,
+    /// A whole frame from the scene.
+    Frame,
+}
+
+impl Work {
+    /// Every kind, in the order of a report.
+    pub const ALL: [Self; 6] =
+        [Self::Build, Self::Closest, Self::Raster, Self::Cover, Self::Shade, Self::Frame];
+
+    /// Its word.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Build => "build",
+            Self::Closest => "closest",
+            Self::Raster => "raster",
+            Self::Cover => "cover",
+            Self::Shade => "shade",
+            Self::Frame => "frame",
+        }
+    }
+
+    /// What it works through.
+    pub const fn unit(self) -> Unit {
+        match self {
+            Self::Build => Unit::Triangles,
+            Self::Closest => Unit::Rays,
+            Self::Raster | Self::Cover | Self::Shade | Self::Frame => Unit::Pixels,
+        }
+    }
+
+    /// So many of its unit.
+    pub const fn of(self, count: usize) -> Amount {
+        Amount { count, unit: self.unit() }
+    }
+}
 
 /// How much a variant works through.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -53,6 +103,8 @@ pub enum Answer {
     Visibility(VisibilityBuffer),
     /// A film with the plane `id.prim`.
     Film(Film),
+    /// What another program has written.
+    Hits(Arc<Hits>),
     /// Nothing that names triangles.
     Unchecked,
 }
@@ -61,29 +113,44 @@ pub enum Answer {
 pub struct Variant<'a> {
     /// Its name, unique in the workload: the key by which reports are compared.
     pub name: String,
+    /// What kind of work it is.
+    pub work: Work,
     /// What it works through.
     pub amount: Amount,
-    work: Box<dyn Fn() -> Answer + 'a>,
+    /// The other program whose work it is; `None` for ours.
+    pub program: Option<String>,
+    run: Box<dyn Fn() -> Answer + 'a>,
 }
 
 impl<'a> Variant<'a> {
-    /// Any work.
-    pub fn new(name: impl Into<String>, amount: Amount, work: impl Fn() -> Answer + 'a) -> Self {
-        Self { name: name.into(), amount, work: Box::new(work) }
+    /// Any work, through `count` of its unit.
+    pub fn new(
+        name: impl Into<String>,
+        work: Work,
+        count: usize,
+        run: impl Fn() -> Answer + 'a,
+    ) -> Self {
+        Self { name: name.into(), work, amount: work.of(count), program: None, run: Box::new(run) }
     }
 
     /// Work that answers what is visible.
     pub fn visibility(
         name: impl Into<String>,
-        amount: Amount,
-        work: impl Fn() -> VisibilityBuffer + 'a,
+        work: Work,
+        count: usize,
+        run: impl Fn() -> VisibilityBuffer + 'a,
     ) -> Self {
-        Self::new(name, amount, move || Answer::Visibility(work()))
+        Self::new(name, work, count, move || Answer::Visibility(run()))
+    }
+
+    /// The same as another program's work.
+    pub fn of(self, program: &str) -> Self {
+        Self { program: Some(program.to_owned()), ..self }
     }
 
     /// Does the work once.
     pub fn run(&self) -> Answer {
-        black_box((self.work)())
+        black_box((self.run)())
     }
 }
 
@@ -111,10 +178,13 @@ pub struct Kernels {
 }
 
 impl Kernels {
-    /// Builds a tree with every preset.
-    pub fn new(scene: &Scene, progress: &dyn Progress) -> Self {
+    /// Builds a tree with every preset of `presets`, and with the standard one.
+    pub fn new(scene: &Scene, presets: &[BuildPreset], progress: &dyn Progress) -> Self {
         let build = |preset| Answerer::new(scene, VisibilityPath::Cast, preset, progress);
-        Self { casters: BuildPreset::ALL.map(|preset| (preset, build(preset))).into() }
+        let wanted =
+            |preset: &BuildPreset| presets.contains(preset) || *preset == BuildPreset::default();
+        let all = BuildPreset::ALL.into_iter().filter(wanted);
+        Self { casters: all.map(|preset| (preset, build(preset))).collect() }
     }
 
     /// The caster with the standard preset.
@@ -128,57 +198,67 @@ impl Kernels {
         expose_from(scene, self.standard_cast(), nearest)
     }
 
-    /// Every standard variant. `seen` is the standard caster's answer and its exposure.
+    /// Every variant of ours, from the standard caster's answer. Without its exposure nothing is
+    /// developed.
     pub fn variants<'a>(
         &'a self,
         scene: &'a Scene,
-        (nearest, exposure): (&'a VisibilityBuffer, &'a Exposure),
+        nearest: &'a VisibilityBuffer,
+        exposure: Option<&'a Exposure>,
     ) -> Vec<Variant<'a>> {
         let window = nearest.window;
-        let amount = |unit| Amount {
-            count: if unit == Unit::Triangles { scene.mesh.len() } else { window.len() },
-            unit,
-        };
+        let (triangles, pixels) = (scene.mesh.len(), window.len());
         let mut variants = Vec::new();
         for (preset, _) in &self.casters {
-            variants.push(Variant::new(
-                format!("build {}", word(*preset)),
-                amount(Unit::Triangles),
-                move || {
-                    black_box(Accelerator::build(&scene.mesh, *preset));
-                    Answer::Unchecked
-                },
-            ));
+            let build = move || {
+                black_box(Accelerator::build(&scene.mesh, *preset));
+                Answer::Unchecked
+            };
+            let name = format!("build {}", preset_word(*preset));
+            variants.push(Variant::new(name, Work::Build, triangles, build));
         }
+        let see = move |answerer: &'a Answerer, counting| {
+            move || answerer.answer(scene, window, counting, &|| ())
+        };
         for (preset, answerer) in &self.casters {
-            variants.push(Variant::visibility(
-                format!("cast {}", word(*preset)),
-                amount(Unit::Rays),
-                move || answer(scene, answerer, window, Counting::Nearest),
-            ));
+            let name = format!("cast {}", preset_word(*preset));
+            let cast = see(answerer, Counting::Nearest);
+            variants.push(Variant::visibility(name, Work::Closest, pixels, cast));
         }
         let cast = self.standard_cast();
-        variants.push(Variant::visibility("cast medium, cover", amount(Unit::Rays), move || {
-            answer(scene, cast, window, Counting::All)
-        }));
-        variants.push(Variant::visibility("raster", amount(Unit::Pixels), move || {
-            answer(scene, &Answerer::Raster, window, Counting::Nearest)
-        }));
-        variants.push(Variant::visibility("raster, cover", amount(Unit::Pixels), move || {
-            answer(scene, &Answerer::Raster, window, Counting::All)
-        }));
-        variants.push(Variant::new("shade", amount(Unit::Pixels), move || {
-            black_box(expose_from(scene, cast, nearest));
-            Answer::Unchecked
-        }));
-        variants.push(Variant::new("develop", amount(Unit::Pixels), move || {
-            let planes = PlaneGroups::standard();
-            let Exposure { radiance, alpha, .. } = exposure;
-            Answer::Film(develop(scene, nearest, radiance, alpha, &planes, Accuracy::Exact))
-        }));
-        variants.push(Variant::new("frame", amount(Unit::Pixels), || {
-            Answer::Film(render(scene, &RenderOptions::default(), &Unwatched).film)
-        }));
+        variants.extend([
+            Variant::visibility(
+                "raster",
+                Work::Raster,
+                pixels,
+                see(&Answerer::Raster, Counting::Nearest),
+            ),
+            Variant::visibility(
+                "cast medium, cover",
+                Work::Cover,
+                pixels,
+                see(cast, Counting::All),
+            ),
+            Variant::visibility(
+                "raster, cover",
+                Work::Cover,
+                pixels,
+                see(&Answerer::Raster, Counting::All),
+            ),
+            Variant::new("shade", Work::Shade, pixels, move || {
+                black_box(expose_from(scene, cast, nearest));
+                Answer::Unchecked
+            }),
+            Variant::new("frame", Work::Frame, pixels, || {
+                Answer::Film(render(scene, &RenderOptions::default(), &Unwatched).film)
+            }),
+        ]);
+        if let Some(Exposure { radiance, alpha, .. }) = exposure {
+            variants.push(Variant::new("develop", Work::Shade, pixels, move || {
+                let planes = PlaneGroups::standard();
+                Answer::Film(develop(scene, nearest, radiance, alpha, &planes, Accuracy::Exact))
+            }));
+        }
         variants
     }
 
@@ -186,7 +266,7 @@ impl Kernels {
     pub fn trees(&self, triangles: usize) -> Vec<TreeFigures> {
         let figures = |(preset, answerer): &(BuildPreset, Answerer)| match answerer {
             Answerer::Cast(tree) => Some(TreeFigures {
-                preset: word(*preset),
+                preset: preset_word(*preset),
                 depth: tree.depth(),
                 nodes: tree.node_count(),
                 bytes: tree.bytes(),
@@ -200,7 +280,7 @@ impl Kernels {
 }
 
 /// The word for a preset.
-const fn word(preset: BuildPreset) -> &'static str {
+pub const fn preset_word(preset: BuildPreset) -> &'static str {
     match preset {
         BuildPreset::Fastest => "fastest",
         BuildPreset::Fast => "fast",
@@ -208,15 +288,6 @@ const fn word(preset: BuildPreset) -> &'static str {
         BuildPreset::Slow => "slow",
         BuildPreset::VerySlow => "very-slow",
     }
-}
-
-fn answer(
-    scene: &Scene,
-    answerer: &Answerer,
-    window: Window,
-    counting: Counting,
-) -> VisibilityBuffer {
-    answerer.answer(scene, window, counting, &|| ())
 }
 
 /// Everything between visibility and the film's planes: layers, samples, shadows and lights.

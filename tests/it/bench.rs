@@ -1,5 +1,8 @@
 //! The benchmark: its report's fields, no time for a wrong kernel, and baselines on the command line.
 
+#[cfg(any(feature = "peers", feature = "embree"))]
+mod peers;
+
 use crate::support::program::truecast;
 use serde_json::Value;
 use std::fs;
@@ -7,7 +10,7 @@ use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 use truecast::bench::reference::Reference;
 use truecast::bench::rounds::{Row, take_turns};
-use truecast::bench::workload::{Amount, Unit, Variant};
+use truecast::bench::workload::{Variant, Work};
 use truecast::mesh::TriangleId;
 use truecast::pixel::Resolution;
 use truecast::raster::rasterize;
@@ -40,10 +43,10 @@ fn the_report_has_its_fields_and_positive_times() {
     let (status, stdout, stderr) = bench(folder.path(), &["--json", "-o", "a.csv", "-o", "a.json"]);
     assert_eq!((status, &*stderr), (0, ""));
     let report: Value = serde_json::from_str(&stdout).unwrap();
-    assert_eq!(report["schema"], "truecast/bench/1");
-    assert_eq!((&report["threads"], &report["rounds"]), (&1.into(), &2.into()));
+    assert_eq!(report["schema"], "truecast/bench/2");
     assert!(report["machine"]["logical_cores"].as_u64().unwrap() > 0);
     let scene = &report["scenes"][0];
+    assert_eq!((&scene["threads"], &report["rounds"]), (&1.into(), &2.into()));
     assert_eq!((&scene["width"], &scene["height"]), (&32.into(), &18.into()));
     assert_eq!(scene["audited_pixels"], 200);
     assert_eq!(scene["disputed_pixels"], 0);
@@ -120,6 +123,29 @@ fn what_cannot_be_compared_or_measured_is_refused() {
     assert!(stderr.contains("was not measured"), "{stderr}");
 }
 
+#[test]
+fn the_workload_is_what_was_asked_for() {
+    let folder = TempDir::new().unwrap();
+    let more = ["--json", "--work", "closest,build", "--preset", "fast,medium", "--threads", "1,2"];
+    let (status, stdout, stderr) = bench(folder.path(), &more);
+    assert_eq!(status, 0, "{stderr}");
+    let report: Value = serde_json::from_str(&stdout).unwrap();
+    let scenes = report["scenes"].as_array().unwrap();
+    let threads: Vec<_> = scenes.iter().map(|scene| scene["threads"].as_u64().unwrap()).collect();
+    assert_eq!(threads, [1, 2]);
+    for scene in scenes {
+        let rows = scene["rows"].as_array().unwrap().iter().filter(|row| row["program"].is_null());
+        let mut names: Vec<_> = rows.map(|row| row["name"].as_str().unwrap()).collect();
+        names.sort_unstable();
+        assert_eq!(names, ["build fast", "build medium", "cast fast", "cast medium"]);
+    }
+    for (option, word) in [("--work", "shades"), ("--preset", "slowest"), ("--simd", "avx")] {
+        let (status, stdout, stderr) = bench(folder.path(), &[option, word]);
+        assert_eq!((status, &*stdout), (2, ""), "{stderr}");
+        assert!(stderr.contains(word), "{stderr}");
+    }
+}
+
 /// One triangle, and a camera that looks away from it.
 const AWAY: &str = r#"version = 1
 [image]
@@ -154,11 +180,10 @@ fn rows_of(changes: &[fn(&mut VisibilityBuffer)], counting: Counting) -> Vec<Row
     let both = [answer(Counting::All), answer(Counting::All)];
     let reference = Reference::of(&scene, &both, 50, &Unwatched);
     assert!(reference.covered_pixels() > 0);
-    let amount = Amount { count: window.len(), unit: Unit::Pixels };
     let variants: Vec<Variant<'_>> = changes
         .iter()
         .map(|change| {
-            Variant::visibility("kernel", amount, move || {
+            Variant::visibility("kernel", Work::Raster, window.len(), move || {
                 let mut buffer = answer(counting);
                 change(&mut buffer);
                 buffer

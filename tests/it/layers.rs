@@ -206,3 +206,17 @@ fn the_three_answerers_do_not_know_each_other() {
         assert!(is_downward, "{module}");
     }
 }
+
+/// The file that speaks to a C library, if the program is built with it.
+const UNSAFE: &str = "bench/peers/embree_sys.rs";
+
+#[test]
+fn unsafe_stands_in_one_file() {
+    let speaks = |text: &str| {
+        let tokens = tokens::tokens(text);
+        tokens.iter().any(|token| token.is_word("unsafe") || token.is_word("unsafe_code"))
+    };
+    let files: Vec<PathBuf> =
+        sources().into_iter().filter(|(_, t)| speaks(t)).map(|f| f.0).collect();
+    assert_eq!(files, [Path::new(UNSAFE)]);
+}
