@@ -29,7 +29,7 @@ use peers::{PeerError, PeerOptions, Peers};
 use reference::Reference;
 use rounds::{Row, take_turns};
 use std::path::PathBuf;
-use workload::{Kernels, TreeFigures, Work};
+use workload::{Kernels, TreeFigures, Work, light_of};
 
 /// How a scene is measured.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -176,6 +176,10 @@ pub fn bench(
     if reference.covered_pixels() == 0 {
         return Err(BenchError::NothingVisible { name: subject.name });
     }
+    let reference = match light_of(scene).filter(|_| wants(Work::Any)) {
+        Some(light) => reference.with_shadows(scene, light, options.audited_pixels),
+        None => reference,
+    };
     let exposure = match wants(Work::Shade) {
         true => Some(kernels.exposure(scene, &both[0])),
         false => None,

@@ -62,7 +62,7 @@ pub fn take_turns(
                 times: None,
                 levels: match &answer {
                     Answer::Visibility(buffer) => Some(buffer.levels),
-                    Answer::Film(_) | Answer::Hits(_) | Answer::Unchecked => None,
+                    _ => None,
                 },
             }
         })
@@ -92,6 +92,7 @@ fn wrong_pixels(answer: &Answer, reference: &Reference) -> Option<usize> {
         Answer::Visibility(buffer) => Some(reference.wrong_pixels(buffer)),
         Answer::Film(film) => Some(reference.wrong_pixels_of_film(film)),
         Answer::Hits(hits) => Some(reference.wrong_ids(hits.window, hits.ids())),
+        Answer::Shadowed(shadowed) => Some(reference.wrong_shadows(shadowed)),
         Answer::Unchecked => None,
     }
 }

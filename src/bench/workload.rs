@@ -5,12 +5,16 @@
 
 use super::peers::Hits;
 use crate::accel::{Accelerator, BuildPreset};
+use crate::cast::shadow::ShadowCaster;
 use crate::film::Film;
+use crate::pixel::for_each_row;
 use crate::render::{
     Accuracy, Answerer, Exposure, PlaneGroups, Progress, RenderOptions, Unwatched, VisibilityPath,
     develop, expose, render,
 };
 use crate::scene::Scene;
+use crate::scene::light::Light;
+use crate::scene::light_point::LightPoint;
 use crate::shade::Effects;
 use crate::visibility::{Counting, VisibilityBuffer};
 use std::hint::black_box;
@@ -23,6 +27,9 @@ pub enum Work {
     Build,
     /// The nearest triangle along one ray per pixel.
     Closest,
+    /// Whether anything stands between each visible point and a light: the first of the scene that
+    /// has a place or a direction, whether it casts shadows in its pictures or not.
+    Any,
     /// The nearest triangle at every pixel by the rasterizer.
     Raster,
     /// Every triangle at every pixel, counted, by either path.
@@ -35,14 +42,22 @@ pub enum Work {
 
 impl Work {
     /// Every kind, in the order of a report.
-    pub const ALL: [Self; 6] =
-        [Self::Build, Self::Closest, Self::Raster, Self::Cover, Self::Shade, Self::Frame];
+    pub const ALL: [Self; 7] = [
+        Self::Build,
+        Self::Closest,
+        Self::Any,
+        Self::Raster,
+        Self::Cover,
+        Self::Shade,
+        Self::Frame,
+    ];
 
     /// Its word.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Build => "build",
             Self::Closest => "closest",
+            Self::Any => "any",
             Self::Raster => "raster",
             Self::Cover => "cover",
             Self::Shade => "shade",
@@ -54,7 +69,7 @@ impl Work {
     pub const fn unit(self) -> Unit {
         match self {
             Self::Build => Unit::Triangles,
-            Self::Closest => Unit::Rays,
+            Self::Closest | Self::Any => Unit::Rays,
             Self::Raster | Self::Cover | Self::Shade | Self::Frame => Unit::Pixels,
         }
     }
@@ -79,7 +94,7 @@ pub struct Amount {
 pub enum Unit {
     /// Triangles of the mesh.
     Triangles,
-    /// Rays, one per pixel.
+    /// Rays: one per pixel, or one per visible point.
     Rays,
     /// Pixels of the frame.
     Pixels,
@@ -105,7 +120,9 @@ pub enum Answer {
     Film(Film),
     /// What another program has written.
     Hits(Arc<Hits>),
-    /// Nothing that names triangles.
+    /// Whether something stands before the light at each pixel.
+    Shadowed(Vec<bool>),
+    /// Nothing that can be right or wrong.
     Unchecked,
 }
 
@@ -253,6 +270,10 @@ impl Kernels {
                 Answer::Film(render(scene, &RenderOptions::default(), &Unwatched).film)
             }),
         ]);
+        if let Some((light, Answerer::Cast(tree))) = light_of(scene).zip(Some(cast)) {
+            let shadows = move || Answer::Shadowed(shadowed(scene, tree, nearest, light));
+            variants.push(Variant::new("shadow", Work::Any, nearest.covered_pixels(), shadows));
+        }
         if let Some(Exposure { radiance, alpha, .. }) = exposure {
             variants.push(Variant::new("develop", Work::Shade, pixels, move || {
                 let planes = PlaneGroups::standard();
@@ -288,6 +309,38 @@ pub const fn preset_word(preset: BuildPreset) -> &'static str {
         BuildPreset::Slow => "slow",
         BuildPreset::VerySlow => "very-slow",
     }
+}
+
+/// The first light that has a place or a direction.
+pub fn light_of(scene: &Scene) -> Option<LightPoint> {
+    scene.lights.iter().find_map(|light| match light {
+        Light::Directional(light) => Some(LightPoint::Direction(light.aim.map(|c| -c))),
+        Light::Point(light) => Some(LightPoint::Position(light.position)),
+        Light::Spot(light) => Some(LightPoint::Position(light.position)),
+        Light::Ambient(_) | Light::Hemisphere(_) => None,
+    })
+}
+
+/// Whether any triangle stands between the light and what is visible, pixel by pixel.
+fn shadowed(
+    scene: &Scene,
+    tree: &Accelerator,
+    nearest: &VisibilityBuffer,
+    light: LightPoint,
+) -> Vec<bool> {
+    let window = nearest.window;
+    let width = window.width() as usize;
+    let mut shadowed = vec![false; window.len()];
+    for_each_row(&mut shadowed, width, &|| (), |row, pixels| {
+        let mut caster = ShadowCaster::new(scene, tree);
+        for (column, shadowed) in pixels.iter_mut().enumerate() {
+            let index = row * width + column;
+            *shadowed = nearest.visible[index].as_ref().is_some_and(|visible| {
+                caster.occluder(window.pixel(index), visible, light, |_| true).is_some()
+            });
+        }
+    });
+    shadowed
 }
 
 /// Everything between visibility and the film's planes: layers, samples, shadows and lights.

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use truecast::bench::baseline::{Baseline, BaselineError};
 use truecast::bench::machine::Machine;
 use truecast::bench::peers::PeerError;
-use truecast::bench::report::{to_csv, to_json, to_table};
+use truecast::bench::report::{to_csv, to_drawing, to_json, to_table};
 use truecast::bench::{BenchError, Report, Subject, bench};
 use truecast::film::FilmError;
 use truecast::scene::{Overrides, Scene};
@@ -21,6 +21,7 @@ use truecast::simd::SimdLevel;
 enum Format {
     Json,
     Csv,
+    Svg,
 }
 
 pub(super) fn run(arguments: &BenchArguments, writing: &Writing) -> Result<u8, Failure> {
@@ -74,6 +75,7 @@ pub(super) fn run(arguments: &BenchArguments, writing: &Writing) -> Result<u8, F
         let text = match format {
             Format::Json => format!("{:#}\n", to_json(&report)),
             Format::Csv => to_csv(&report),
+            Format::Svg => to_drawing(&report).to_svg(),
         };
         output::save(writing, path, text.as_bytes())?;
     }
@@ -92,8 +94,9 @@ fn targets(paths: &[PathBuf]) -> Result<Vec<(&Path, Format)>, Failure> {
         match extension.as_deref() {
             Some("json") => Ok(Format::Json),
             Some("csv") => Ok(Format::Csv),
+            Some("svg") => Ok(Format::Svg),
             _ => Err(Failure::usage(format!(
-                "{}: the name does not say what to write; end it in .json or .csv",
+                "{}: the name does not say what to write; end it in .json, .csv or .svg",
                 path.display()
             ))),
         }

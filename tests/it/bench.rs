@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 use truecast::bench::reference::Reference;
 use truecast::bench::rounds::{Row, take_turns};
-use truecast::bench::workload::{Variant, Work};
+use truecast::bench::workload::{Variant, Work, light_of};
 use truecast::mesh::TriangleId;
 use truecast::pixel::Resolution;
 use truecast::raster::rasterize;
@@ -40,11 +40,13 @@ fn bench_of(scene: &str, folder: &Path, more: &[&str]) -> (i32, String, String) 
 #[test]
 fn the_report_has_its_fields_and_positive_times() {
     let folder = TempDir::new().unwrap();
-    let (status, stdout, stderr) = bench(folder.path(), &["--json", "-o", "a.csv", "-o", "a.json"]);
+    let (status, stdout, stderr) =
+        bench(folder.path(), &["--json", "-o", "a.csv", "-o", "a.json", "-o", "a.svg"]);
     assert_eq!((status, &*stderr), (0, ""));
     let report: Value = serde_json::from_str(&stdout).unwrap();
     assert_eq!(report["schema"], "truecast/bench/2");
     assert!(report["machine"]["logical_cores"].as_u64().unwrap() > 0);
+    assert!(report["machine"]["rustc"].as_str().unwrap().starts_with("rustc 1."));
     let scene = &report["scenes"][0];
     assert_eq!((&scene["threads"], &report["rounds"]), (&1.into(), &2.into()));
     assert_eq!((&scene["width"], &scene["height"]), (&32.into(), &18.into()));
@@ -62,9 +64,16 @@ fn the_report_has_its_fields_and_positive_times() {
         let is_checked = !name.starts_with("build") && name != "shade";
         let wrong = if is_checked { Value::from(0) } else { Value::Null };
         assert_eq!(row["wrong_pixels"], wrong, "{name}");
-        let counts_decisions = name.starts_with("cast") || name.starts_with("raster");
+        let counts_decisions =
+            row["program"].is_null() && (name.starts_with("cast") || name.starts_with("raster"));
         assert_eq!(row["decisions"].is_object(), counts_decisions, "{name}");
     }
+    let svg = fs::read_to_string(folder.path().join("a.svg")).unwrap();
+    for row in rows.iter().filter(|row| row["program"].is_null()) {
+        assert!(svg.contains(row["name"].as_str().unwrap()), "{row}");
+    }
+    // A bar per row.
+    assert_eq!(svg.matches("<polygon").count(), rows.len());
     let csv = fs::read_to_string(folder.path().join("a.csv")).unwrap();
     assert_eq!(csv.lines().count(), 1 + rows.len());
     let columns = csv.lines().next().unwrap().split(',').count();
@@ -116,7 +125,8 @@ fn what_cannot_be_compared_or_measured_is_refused() {
     refused(&["--baseline", &same, "--size", "16x9"], 3, "give --size 32x18");
     refused(&["--baseline", &same, "--threads", "2"], 3, "give --threads 1");
     refused(&["--baseline", "missing.json"], 4, "missing.json");
-    refused(&["-o", "report.svg"], 2, "end it in .json or .csv");
+    refused(&["-o", "report.txt"], 2, "end it in .json, .csv or .svg");
+    refused(&["-o", "missing/report.svg"], 4, "missing");
     refused(&["--rounds", "0"], 2, "expected a whole number");
     let (status, _, stderr) = bench_of("iteration-1.toml", folder.path(), &["--baseline", &same]);
     assert_eq!(status, 3, "{stderr}");
@@ -234,4 +244,22 @@ fn both_paths_wrong_alike_are_found_by_the_arbiter() {
     let reference = Reference::of(&scene, &[wrong, right.clone()], 0, &Unwatched);
     assert_eq!(reference.disputed_pixels(), right.covered_pixels());
     assert_eq!(reference.wrong_pixels(&right), 0);
+}
+
+#[test]
+fn wrong_shadows_are_found_by_exact_arithmetic() {
+    let overrides = Overrides { resolution: Resolution::new(32, 18), ..Overrides::default() };
+    let scene = Scene::load(&scene_file("effect-shadows.toml"), &overrides).unwrap();
+    let window = scene.camera.resolution().window();
+    let buffer = rasterize(&scene, window, Counting::Nearest, &|| ());
+    let light = light_of(&scene).unwrap();
+    let both = [buffer.clone(), buffer];
+    let reference =
+        Reference::of(&scene, &both, 0, &Unwatched).with_shadows(&scene, light, window.len());
+    // Every visible point is either lit or in shadow, and the scene has both.
+    let count = |answer| reference.wrong_shadows(&vec![answer; window.len()]);
+    let (lit, dark) = (count(true), count(false));
+    assert!(lit > 0 && dark > 0, "{lit} {dark}");
+    assert_eq!(lit + dark, reference.covered_pixels());
+    assert_eq!(reference.wrong_shadows(&[]), reference.covered_pixels());
 }

@@ -82,9 +82,12 @@ const ALLOWED: &[Allowed] = &[
             "visibility",
             "film",
             "accel",
+            "cast",
+            "raster",
             "exact",
             "shade",
             "render",
+            "drawing",
         ],
     ),
     (

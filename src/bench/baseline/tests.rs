@@ -51,7 +51,13 @@ fn measured(rows: Vec<Row>) -> Measured {
 /// What a report of these rows on two threads becomes as a baseline.
 fn baseline(rows: Vec<Row>) -> Baseline {
     let report = Report {
-        machine: Machine { logical_cores: Some(2), cpu: None, version: "0" },
+        machine: Machine {
+            logical_cores: Some(2),
+            cpu: None,
+            version: "0",
+            rustc: None,
+            commit: None,
+        },
         rounds: 9,
         scenes: vec![measured(rows)],
         comparison: None,

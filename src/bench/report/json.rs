@@ -18,6 +18,8 @@ pub fn to_json(report: &Report) -> Value {
         "machine": {
             "logical_cores": report.machine.logical_cores,
             "cpu": report.machine.cpu,
+            "rustc": report.machine.rustc,
+            "commit": report.machine.commit,
         },
         "rounds": report.rounds,
         "scenes": report.scenes.iter().map(scene).collect::<Vec<_>>(),

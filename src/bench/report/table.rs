@@ -12,8 +12,10 @@ use std::fmt::Write;
 pub fn to_table(report: &Report) -> String {
     let machine = &report.machine;
     let mut text = format!(
-        "truecast {}, {} rounds; {}, {} logical cores\n",
+        "truecast {} ({}, commit {}), {} rounds; {}, {} logical cores\n",
         machine.version,
+        machine.rustc.unwrap_or("unknown compiler"),
+        machine.commit.unwrap_or("not told"),
         report.rounds,
         machine.cpu.as_deref().unwrap_or("unknown processor"),
         machine.logical_cores.map_or_else(|| "?".to_owned(), |cores| cores.to_string()),

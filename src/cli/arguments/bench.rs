@@ -20,7 +20,7 @@ pub(in crate::cli) struct BenchArguments {
     /// Scene files (TOML); without any the built-in default scene, a teapot under spotlights
     #[arg(value_name = "SCENE")]
     pub(in crate::cli) scenes: Vec<PathBuf>,
-    /// Also write the report to this file, .json or .csv by extension; may be repeated
+    /// Also write the report to this file, .json, .csv or .svg by extension; may be repeated
     #[arg(short, long = "output", value_name = "FILE")]
     pub(in crate::cli) output: Vec<PathBuf>,
     /// Compare with an earlier report in JSON: a median that is larger by more than 5 % and by more
@@ -87,6 +87,8 @@ pub(in crate::cli) enum WorkWord {
     Build,
     /// The nearest triangle along one ray per pixel
     Closest,
+    /// Whether anything stands between each visible point and the first light
+    Any,
     /// The nearest triangle at every pixel by the rasterizer
     Raster,
     /// Every triangle at every pixel, counted, by either path
@@ -102,6 +104,7 @@ impl WorkWord {
         match self {
             Self::Build => Work::Build,
             Self::Closest => Work::Closest,
+            Self::Any => Work::Any,
             Self::Raster => Work::Raster,
             Self::Cover => Work::Cover,
             Self::Shade => Work::Shade,
