@@ -150,7 +150,7 @@ fn parse_simd(text: &str) -> Result<SimdLevel, String> {
     Err(format!("this machine has only {}", names.join(", ")))
 }
 
-fn parse_rounds(text: &str) -> Result<usize, String> {
+pub(super) fn parse_rounds(text: &str) -> Result<usize, String> {
     let rounds = text.trim().parse().ok().filter(|rounds| (1..=1_000_000).contains(rounds));
     rounds.ok_or_else(|| "expected a whole number from 1 to 1000000".to_owned())
 }
