@@ -42,8 +42,8 @@ pub struct BenchOptions {
     pub works: Vec<Work>,
     /// With which presets trees are built and cast at.
     pub presets: Vec<BuildPreset>,
-    /// The instruction set that vector kernels are held to; without it, the machine's best.
-    pub simd: Option<SimdLevel>,
+    /// Whether Embree is held to the subject's instruction set; else it chooses for itself.
+    pub holds_simd: bool,
     /// The shared library of Embree; without it, whichever version the system finds.
     pub embree: Option<PathBuf>,
 }
@@ -60,7 +60,7 @@ impl Default for BenchOptions {
             audited_pixels: 200,
             works: Work::ALL.into(),
             presets: BuildPreset::ALL.into(),
-            simd: None,
+            holds_simd: false,
             embree: None,
         }
     }
@@ -163,7 +163,8 @@ pub fn bench(
     let wants = |work| options.works.contains(&work);
     let peers = match wants(Work::Closest) {
         true => {
-            let asked = PeerOptions { embree: options.embree.clone(), simd: options.simd };
+            let simd = options.holds_simd.then_some(subject.simd);
+            let asked = PeerOptions { embree: options.embree.clone(), simd };
             Peers::new(scene, window, &asked)?
         }
         false => Peers::default(),

@@ -79,7 +79,7 @@ pub enum BaselineError {
     Simd {
         /// The scene.
         scene: String,
-        /// Of the baseline.
+        /// Those of the baseline, separated by commas.
         old: String,
         /// Of now.
         new: String,
@@ -224,16 +224,17 @@ impl Baseline {
     /// The entry with the subject's digest, or in what the one of its name differs.
     fn scene(&self, subject: &Subject) -> Result<&OldScene, BaselineError> {
         let same: Vec<_> = self.scenes.iter().filter(|old| old.digest == subject.digest).collect();
-        let is_alike = |old: &&&OldScene| old.threads == subject.threads;
-        if let Some(alike) = same.iter().find(is_alike) {
-            return match alike.simd == subject.simd.name() {
-                true => Ok(alike),
-                false => Err(BaselineError::Simd {
-                    scene: subject.name.clone(),
-                    old: alike.simd.clone(),
-                    new: subject.simd.to_string(),
-                }),
-            };
+        let alike: Vec<_> = same.iter().filter(|old| old.threads == subject.threads).collect();
+        if let Some(alike) = alike.iter().find(|old| old.simd == subject.simd.name()) {
+            return Ok(alike);
+        }
+        if !alike.is_empty() {
+            let old: Vec<&str> = alike.iter().map(|old| &*old.simd).collect();
+            return Err(BaselineError::Simd {
+                scene: subject.name.clone(),
+                old: old.join(","),
+                new: subject.simd.to_string(),
+            });
         }
         if !same.is_empty() {
             let old: Vec<String> = same.iter().map(|old| old.threads.to_string()).collect();

@@ -7,7 +7,7 @@ use super::peers::Hits;
 use crate::accel::{Accelerator, BuildPreset};
 use crate::cast::shadow::ShadowCaster;
 use crate::film::Film;
-use crate::pixel::for_each_row;
+use crate::pixel::{Window, for_each_row};
 use crate::render::{
     Accuracy, Answerer, Exposure, PlaneGroups, Progress, RenderOptions, Unwatched, VisibilityPath,
     develop, expose, render,
@@ -16,7 +16,7 @@ use crate::scene::Scene;
 use crate::scene::light::Light;
 use crate::scene::light_point::LightPoint;
 use crate::shade::Effects;
-use crate::visibility::{Counting, VisibilityBuffer};
+use crate::visibility::{Counting, LevelCounts, VisibilityBuffer};
 use std::hint::black_box;
 use std::sync::Arc;
 
@@ -116,6 +116,15 @@ impl Unit {
 pub enum Answer {
     /// Which triangle is visible at each pixel.
     Visibility(VisibilityBuffer),
+    /// Ids alone, row by row, with `u32::MAX` for nothing.
+    Nearest {
+        /// Of which pixels.
+        window: Window,
+        /// The ids.
+        ids: Vec<u32>,
+        /// Decisions per level of arithmetic.
+        levels: LevelCounts,
+    },
     /// A film with the plane `id.prim`.
     Film(Film),
     /// What another program has written.

@@ -27,13 +27,18 @@ enum Format {
 pub(super) fn run(arguments: &BenchArguments, writing: &Writing) -> Result<u8, Failure> {
     let targets = targets(&arguments.output)?;
     let options = arguments.options();
+    let levels = match arguments.simd.is_empty() {
+        true => vec![SimdLevel::best()],
+        false => arguments.simd.clone(),
+    };
     let scenes = load(arguments)?;
     let mut runs = Vec::new();
     for (scene, name) in &scenes {
         for &threads in &arguments.threads {
             let count = on_threads(threads, rayon::current_num_threads)?;
-            let simd = options.simd.unwrap_or_else(SimdLevel::best);
-            runs.push((scene, Subject::new(name.clone(), scene, count, simd)));
+            for &simd in &levels {
+                runs.push((scene, Subject::new(name.clone(), scene, count, simd)));
+            }
         }
     }
     let machine = Machine::here();

@@ -149,7 +149,7 @@ intensity = [1.0, 1.0, 1.0]
 fn a_knob_that_a_scene_has_not_is_left_out_with_the_reason() {
     let folder = TempDir::new().unwrap();
     let cases = [
-        ("box = { width = 1.0 }", "", "no mesh of the scene is a `torus`"),
+        ("box = { segments = 1 }", "", "no mesh of the scene is a `torus`"),
         ("icosphere = { level = 2 }", "opacity = 0.5", "see-through"),
     ];
     for (shape, material, reason) in cases {

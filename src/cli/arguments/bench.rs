@@ -12,7 +12,8 @@ use truecast::simd::SimdLevel;
 #[command(
     after_help = "Every answer to a question of visibility is held against both paths at every \
 pixel and against exact arithmetic at 200; a variant with a wrong answer gets no time but its number of \
-wrong pixels. Exit status: 0 ok; 1 a wrong answer, or slower than the baseline beyond noise; 2 usage; \
+wrong pixels. A program built with the features `peers` or `embree` times other programs' ray casters \
+beside its own. Exit status: 0 ok; 1 a wrong answer, or slower than the baseline beyond noise; 2 usage; \
 3 bad scene, nothing visible, or a baseline of another scene, size or number of threads; 4 reading or \
 writing failed; 130 interrupted."
 )]
@@ -45,10 +46,10 @@ pub(in crate::cli) struct BenchArguments {
     /// Presets by which trees are built and cast at, separated by commas [default: all]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_enum)]
     pub(in crate::cli) preset: Vec<PresetWord>,
-    /// Hold vector kernels to an instruction set, Embree's too: baseline, sse4.2, avx2 or avx512
-    /// [default: the machine's best]
-    #[arg(long, value_name = "LEVEL", value_parser = parse_simd)]
-    pub(in crate::cli) simd: Option<SimdLevel>,
+    /// Instruction sets that vector kernels are held to, Embree's too, separated by commas: each scene
+    /// is measured on each; baseline, sse4.2, avx2 or avx512 [default: the machine's best]
+    #[arg(long, value_name = "LEVEL,...", value_delimiter = ',', value_parser = parse_simd)]
+    pub(in crate::cli) simd: Vec<SimdLevel>,
     /// The shared library of Embree, version 3 or 4 [default: the one that is installed]
     #[cfg(feature = "embree")]
     #[arg(long, value_name = "FILE")]
@@ -64,8 +65,11 @@ pub(in crate::cli) struct BenchArguments {
 impl BenchArguments {
     /// What they ask of each scene.
     pub(in crate::cli) fn options(&self) -> BenchOptions {
-        let mut options =
-            BenchOptions { rounds: self.rounds, simd: self.simd, ..BenchOptions::default() };
+        let mut options = BenchOptions {
+            rounds: self.rounds,
+            holds_simd: !self.simd.is_empty(),
+            ..BenchOptions::default()
+        };
         if !self.work.is_empty() {
             options.works = self.work.iter().map(|word| word.work()).collect();
         }
