@@ -129,6 +129,20 @@ pub struct VisibilityBuffer {
     pub levels: LevelCounts,
 }
 
+/// The nearest triangle of every pixel of a window and its ray parameter, row by row: what a z-buffer
+/// holds, and no more.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NearestBuffer {
+    /// Which pixels.
+    pub window: Window,
+    /// The visible triangle's id, exact; `u32::MAX` where nothing is visible.
+    pub ids: Vec<u32>,
+    /// The ray parameter t, rounded to f32; +∞ where nothing is visible.
+    pub t: Vec<f32>,
+    /// Decisions per level.
+    pub levels: LevelCounts,
+}
+
 /// What lies behind the nearest surface, for every pixel of a window whose nearest is see-through:
 /// all surfaces in exact depth order, ties by id, up to and including the first opaque one.
 #[derive(Clone, Debug, PartialEq)]
