@@ -2,8 +2,9 @@
 //!
 //! With M = ±2^-k·adj(P), turned so that w > 0 before the eye and scaled so that ω = |m_w|₁ is
 //! 1…2, corner i has the image X_i = M·(v_i − e) = (x·w, y·w, w). R_0 = X_1 × X_2 (and cyclically)
-//! are edge rows, V = X_0·R_0, N = R_0 + R_1 + R_2, and N·(x, y, 1)/V = 1/w where the triangle
-//! covers. Source: Olano & Greer (1997).
+//! are edge rows; with S_ij = M·(v_j − v_i), N = S_20 × S_01 is the plane's row, V = X_0·N, and
+//! N·(x, y, 1)/V = 1/w where the triangle covers. N and V are taken from differences, which keeps
+//! small far triangles well conditioned. Source: Olano & Greer (1997).
 //!
 //! **Bounds.** u = 2^-53, s_i = max|v_i − e|, γ_m ≈ m·u as in `rows`, where each triangle has bounds
 //! of its own; these are coarser, one number per frame and product of sizes s. Every sample has
@@ -15,16 +16,17 @@
 //! * X: an entry of M, v − e, their product and two sums round: 5.
 //! * A row: X twice, product and difference: 12. Moved to a tile's origin (product, two sums) and
 //!   scaled: 16. Its value, coefficients taken as they are, is off by less than
-//!   γ_16·2·χ²·s_i·s_j < 33u·χ²·s_i·s_j. N has two sums more, a division and a product: 20 in all,
-//!   41u·χ²·Σ s_i·s_j. Values at the corners of tiles in f64: two sums more than a row, 37u.
-//! * V: a row, X, product and two sums: 20; six monomials of at most χ²·ω·s_0·s_1·s_2 each:
-//!   126u·χ²·ω·s_0·s_1·s_2.
+//!   γ_16·2·χ²·s_i·s_j < 33u·χ²·s_i·s_j. Values at the corners of tiles in f64: two sums more, 37u.
+//! * S and N round as X and rows do, with r_ij = max|v_j − v_i| instead of s_i. Times 1/|V| (a division
+//!   and a product more), 1/w is off by less than 37u·χ²·r_01·r_20/|V| for N.
+//! * V: N, X, product and two sums: 20; six monomials of at most χ²·ω·r_01·r_20·s_0 each:
+//!   126u·χ²·ω·r_01·r_20·s_0.
 //! * w: 5, so that 6u·ω·s_i.
 //!
 //! `row_error` is 64u·χ² and `volume_error` 256u·χ²·ω: at least half as much again, and twice, what
 //! is needed; ω, χ and s are themselves rounded, by less than 2^-48 of themselves. Fused operations
 //! only leave roundings out. Nothing overflows (`image_plane`: here |X| ≤ 2^236 still, as 2^-k ≤ 1
-//! where ω ≥ 1), and what underflows is far below the bounds, as s ≥ 2^-149 where V is certain.
+//! where ω ≥ 1), and what underflows is far below the bounds, as s and r ≥ 2^-149 where V is certain.
 
 use super::image_plane::ImagePlane;
 use super::rows::U;
@@ -41,11 +43,11 @@ pub(super) struct Frame {
     pub(super) eye: [f64; 3],
     /// ω: |w| is at most ω·s.
     pub(super) w_norm: f64,
-    /// Times s_i·s_j: bound of an edge row's error at any sample; times Σ s_i·s_j, of N's.
+    /// Times s_i·s_j: bound of an edge row's error at any sample; times r_01·r_20, of N's.
     pub(super) row_error: f64,
-    /// Times s_0·s_1·s_2: bound of V's error.
+    /// Times r_01·r_20·s_0: bound of V's error.
     pub(super) volume_error: f64,
-    /// χ²: a row's magnitude at any sample is at most 2·χ²·s_i·s_j.
+    /// χ²: |N| at any sample is at most 2·χ²·r_01·r_20.
     pub(super) row_magnitude: f64,
     /// Room that a screen box is given besides a share of its coordinates, in pixels.
     pub(super) box_room: f64,

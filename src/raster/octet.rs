@@ -39,6 +39,20 @@ impl Corners {
     }
 }
 
+impl Corners {
+    /// The corners in f64.
+    #[inline(always)]
+    fn vectors<S: Simd>(&self, simd: S) -> [Triple<S>; 3] {
+        let [r0, r1, r2, r3, r4] = &self.0;
+        let (ax, ay) = widened(simd, r0);
+        let (az, bx) = widened(simd, r1);
+        let (by, bz) = widened(simd, r2);
+        let (cx, cy) = widened(simd, r3);
+        let (cz, _) = widened(simd, r4);
+        [[ax, ay, az], [bx, by, bz], [cx, cy, cz]]
+    }
+}
+
 /// A homogeneous point or row of eight triangles.
 pub(super) type Triple<S> = [f64x8<S>; 3];
 
@@ -54,15 +68,11 @@ impl<S: Simd> Images<S> {
     /// Moves corners into homogeneous image coordinates.
     #[inline(always)]
     pub(super) fn new(simd: S, frame: &Frame, corners: &Corners) -> Self {
-        let [r0, r1, r2, r3, r4] = &corners.0;
-        let (ax, ay) = widened(simd, r0);
-        let (az, bx) = widened(simd, r1);
-        let (by, bz) = widened(simd, r2);
-        let (cx, cy) = widened(simd, r3);
-        let (cz, _) = widened(simd, r4);
-        let (a, size_a) = image(simd, frame, [ax, ay, az]);
-        let (b, size_b) = image(simd, frame, [bx, by, bz]);
-        let (c, size_c) = image(simd, frame, [cx, cy, cz]);
+        let [a, b, c] = corners.vectors(simd);
+        let [x, y, z] = frame.eye;
+        let (a, size_a) = moved(simd, frame, [a[0] - x, a[1] - y, a[2] - z]);
+        let (b, size_b) = moved(simd, frame, [b[0] - x, b[1] - y, b[2] - z]);
+        let (c, size_c) = moved(simd, frame, [c[0] - x, c[1] - y, c[2] - z]);
         Self { points: [a, b, c], sizes: [size_a, size_b, size_c] }
     }
 
@@ -73,32 +83,46 @@ impl<S: Simd> Images<S> {
         [cross(b, c), cross(c, a), cross(a, b)]
     }
 
-    /// V = X_0·R_0.
+    /// s_1·s_2, s_2·s_0, s_0·s_1, which belong to the edges.
     #[inline(always)]
-    pub(super) fn volume(&self, edge: &Triple<S>) -> f64x8<S> {
-        dot(edge, &self.points[0])
+    pub(super) fn size_products(&self) -> Triple<S> {
+        let [a, b, c] = self.sizes;
+        [b * c, c * a, a * b]
     }
 
-    /// s_0·s_1·s_2, and the products s_1·s_2, s_2·s_0, s_0·s_1 that belong to the edges.
+    /// N and V, taken from the corners' differences.
     #[inline(always)]
-    pub(super) fn size_products(&self) -> (f64x8<S>, Triple<S>) {
-        let [a, b, c] = self.sizes;
-        let ab = a * b;
-        (ab * c, [b * c, c * a, ab])
+    pub(super) fn plane(&self, simd: S, frame: &Frame, corners: &Corners) -> Plane<S> {
+        let [a, b, c] = corners.vectors(simd);
+        let (s01, size01) = moved(simd, frame, [b[0] - a[0], b[1] - a[1], b[2] - a[2]]);
+        let (s20, size20) = moved(simd, frame, [a[0] - c[0], a[1] - c[1], a[2] - c[2]]);
+        let row = cross(&s20, &s01);
+        let (volume, size) = (dot(&row, &self.points[0]), size01 * size20);
+        Plane { row, volume, size, volume_size: size * self.sizes[0] }
     }
 }
 
-/// M·(v − e), and max|v − e|.
+/// The planes of eight triangles.
+pub(super) struct Plane<S: Simd> {
+    /// N = S_20 × S_01.
+    pub(super) row: Triple<S>,
+    /// V = X_0·N.
+    pub(super) volume: f64x8<S>,
+    /// max|v_0 − v_2|·max|v_1 − v_0|.
+    pub(super) size: f64x8<S>,
+    /// The same times s_0.
+    pub(super) volume_size: f64x8<S>,
+}
+
+/// M·a, and max|a|.
 #[inline(always)]
-fn image<S: Simd>(simd: S, frame: &Frame, v: Triple<S>) -> (Triple<S>, f64x8<S>) {
-    let [e0, e1, e2] = frame.eye;
-    let a = [v[0] - e0, v[1] - e1, v[2] - e2];
+fn moved<S: Simd>(simd: S, frame: &Frame, a: Triple<S>) -> (Triple<S>, f64x8<S>) {
     let size = a[0].abs().max(a[1].abs()).max(a[2].abs());
     let [x, y, w] = &frame.matrix;
     ([along(simd, x, &a), along(simd, y, &a), along(simd, w, &a)], size)
 }
 
-/// A row of M times v − e.
+/// A row of M times a.
 #[inline(always)]
 fn along<S: Simd>(simd: S, row: &[f64; 3], a: &Triple<S>) -> f64x8<S> {
     let row = [f64x8::splat(simd, row[0]), f64x8::splat(simd, row[1]), f64x8::splat(simd, row[2])];

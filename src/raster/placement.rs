@@ -11,7 +11,7 @@ use super::bins::{Candidate, set_up};
 use super::bounds::Region;
 use super::frame::{FRONT, Frame};
 use super::image_plane::ImagePlane;
-use super::octet::{Corners, Images, Lanes, OCTET, Triple};
+use super::octet::{Corners, Images, Lanes, OCTET, Plane, Triple};
 use super::rows::U;
 use super::screen_box::ScreenBoxes;
 use super::tile_lists::{Grid, Listed, TileLists};
@@ -177,8 +177,8 @@ impl<'a> Placing<'a> {
         if lanes == 0 {
             return;
         }
-        let edges = images.edges();
-        let hard = lanes & (hard_lanes(simd, self.frame, &images, &edges) | planted_hard(behind));
+        let plane = images.plane(simd, self.frame, corners);
+        let hard = lanes & (hard_lanes(simd, self.frame, &plane) | planted_hard(behind));
         let mut left = hard;
         while left != 0 {
             self.hard.push(first + left.trailing_zeros());
@@ -205,7 +205,7 @@ impl<'a> Placing<'a> {
             }
         }
         if large != 0 {
-            self.by_edges(simd, first, large, &tiles, &images, &edges);
+            self.by_edges(simd, first, large, &tiles, &images, &plane);
         }
     }
 
@@ -218,10 +218,10 @@ impl<'a> Placing<'a> {
         large: u64,
         tiles: &[Lanes<i32>; 2],
         images: &Images<S>,
-        edges: &[Triple<S>; 3],
+        plane: &Plane<S>,
     ) {
-        let inside = f64x8::splat(simd, 1.0).copysign(images.volume(&edges[0]));
-        let (_, pairs) = images.size_products();
+        let inside = f64x8::splat(simd, 1.0).copysign(plane.volume);
+        let (edges, pairs) = (images.edges(), images.size_products());
         let mut rows = [[[0.0_f64; 8]; 4]; 3];
         for k in 0..3 {
             for c in 0..3 {
@@ -321,12 +321,11 @@ fn is_behind<S: Simd>((point, size): (&Triple<S>, f64x8<S>)) -> mask64x8<S> {
 /// Triangles that are not for the kernels: unless |V| is certainly at least ¾ of what it is computed
 /// to be, and N/V of a size for f32 at every sample. NaN makes a triangle hard.
 #[inline(always)]
-fn hard_lanes<S: Simd>(simd: S, frame: &Frame, images: &Images<S>, edges: &[Triple<S>; 3]) -> u64 {
-    let size = images.volume(&edges[0]).abs();
-    let (product, [p, q, r]) = images.size_products();
-    let certain = size.simd_gt(product * (4.0 * frame.volume_error));
-    // |N| is at most 2·χ²·Σ s_i·s_j.
-    let in_range = ((p + q + r) * (2.0 * frame.row_magnitude)).simd_lt(size * MOST_INVERSE_DEPTH);
+fn hard_lanes<S: Simd>(simd: S, frame: &Frame, plane: &Plane<S>) -> u64 {
+    let size = plane.volume.abs();
+    let certain = size.simd_gt(plane.volume_size * (4.0 * frame.volume_error));
+    let most = plane.size * (2.0 * frame.row_magnitude);
+    let in_range = most.simd_lt(size * MOST_INVERSE_DEPTH);
     let mut usable = (certain & in_range).to_bitmask();
     if mutant::is(Mutant::DeterminantEpsilon) {
         usable &= size.simd_gt(f64x8::splat(simd, 1e-6)).to_bitmask();

@@ -12,15 +12,15 @@
 //!   The bounds of a block, −1 − 3·(max(A, 0) + max(B, 0)), and of the tile are such sums too.
 //!   What f32 loses to underflow, 2^-149 per operation, is nothing beside 1.
 //!
-//! Together less than 0.63. The row of 1/w is N/|V|. With ρ = `volume_error`·s_0·s_1·s_2/|V| ≤ ¼
+//! Together less than 0.63. The row of 1/w is N/|V|. With ρ = `volume_error`·r_01·r_20·s_0/|V| ≤ ¼
 //! (`placement` calls others hard), 1/|V| is off by at most 4/3·ρ of itself, N by
-//! `row_error`·Σ s_i·s_j: the error at any sample of the tile is below
-//! S·(6·v + 4/3·ρ) + 4/3·`row_error`·Σ s_i·s_j/|V|, S as above, the widening by it (one rounding)
+//! `row_error`·r_01·r_20: the error at any sample of the tile is below
+//! S·(6·v + 4/3·ρ) + 4/3·`row_error`·r_01·r_20/|V|, S as above, the widening by it (one rounding)
 //! included; what is taken is a little more, and 2^-120 for underflow.
 
 use super::blocks::BlockGrid;
 use super::frame::Frame;
-use super::octet::{Corners, Images, Lanes, Triple};
+use super::octet::{Corners, Images, Lanes, Plane, Triple};
 use super::screen_box::ScreenBoxes;
 use crate::mutant::{self, Mutant};
 use fearless_simd::prelude::*;
@@ -128,8 +128,9 @@ impl TileRows {
             return 0;
         }
         let edges = images.edges();
-        let volume = images.volume(&edges[0]);
-        let (product, pairs) = images.size_products();
+        let pairs = images.size_products();
+        let Plane { row, volume, size: plane_size, volume_size } =
+            images.plane(simd, frame, corners);
         let inside = f64x8::splat(simd, 1.0).copysign(volume);
         let size = volume.abs();
         // Edges, in their units.
@@ -137,17 +138,13 @@ impl TileRows {
         let e0 = edge_row(tile, &edges[0], pairs[0] * least, inside);
         let e1 = edge_row(tile, &edges[1], pairs[1] * least, inside);
         let e2 = edge_row(tile, &edges[2], pairs[2] * least, inside);
-        // N, turned; its bits do not depend on the tile.
-        let plane = [
-            (edges[0][0] + edges[1][0] + edges[2][0]) * inside,
-            (edges[0][1] + edges[1][1] + edges[2][1]) * inside,
-            (edges[0][2] + edges[1][2] + edges[2][2]) * inside,
-        ];
+        // Its bits do not depend on the tile.
+        let plane = [row[0] * inside, row[1] * inside, row[2] * inside];
         let inverse = f64x8::splat(simd, 1.0) / size;
         let c = moved(tile, &plane);
         let total = magnitude(tile, &plane, c) * inverse;
-        let volume_error = product * frame.volume_error;
-        let plane_error = (pairs[0] + pairs[1] + pairs[2]) * frame.row_error;
+        let volume_error = volume_size * frame.volume_error;
+        let plane_error = plane_size * frame.row_error;
         let depth = [plane[0] * inverse, plane[1] * inverse, c * inverse];
         let error = total * (volume_error * inverse * VOLUME_SHARE + SINGLE_SHARE)
             + plane_error * inverse * VOLUME_SHARE
