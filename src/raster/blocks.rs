@@ -107,6 +107,18 @@ impl Blocks {
             width -= 1;
         }
         let side = BLOCK_SIDE as usize;
+        self.farthest_of_all = f32::NEG_INFINITY;
+        self.crossed.fill(Lanes([0; 16]));
+        self.signed.fill(Lanes([0; 16]));
+        self.winner[..grid.len()].fill(Lanes([NOTHING; 16]));
+        if width.min(height) == grid.per_side * side {
+            self.low[..grid.len()].fill(Lanes([f32::NEG_INFINITY; 16]));
+            self.high[..grid.len()].fill(Lanes([f32::NEG_INFINITY; 16]));
+            for block in 0..grid.len() {
+                self.farthest[block / 16].0[block % 16] = f32::NEG_INFINITY;
+            }
+            return;
+        }
         for block in 0..grid.len() {
             let (x, y) = (block % grid.per_side * side, block / grid.per_side * side);
             let whole = x + side <= width && y + side <= height;
@@ -120,14 +132,10 @@ impl Blocks {
                 })),
             };
             (self.low[block], self.high[block]) = (empty, empty);
-            self.winner[block] = Lanes([NOTHING; 16]);
             let any = empty.0.contains(&f32::NEG_INFINITY);
             self.farthest[block / 16].0[block % 16] =
                 if any { f32::NEG_INFINITY } else { f32::INFINITY };
         }
-        self.farthest_of_all = f32::NEG_INFINITY;
-        self.crossed.fill(Lanes([0; 16]));
-        self.signed.fill(Lanes([0; 16]));
     }
 
     /// Brings `farthest` up to date for blocks in which something was drawn.
