@@ -17,7 +17,6 @@ use crate::mutant::{self, Mutant};
 use crate::pixel::{Pixel, Window};
 use crate::visibility::LevelCounts;
 use std::cmp::Ordering;
-use std::collections::HashMap;
 use std::rc::Rc;
 
 /// Rows kept per tile before the store starts anew: about 300 bytes each.
@@ -31,9 +30,13 @@ pub(super) struct Doubt<'a> {
     pub(super) window: Window,
     pub(super) exact: ExactStage<'a>,
     pub(super) levels: LevelCounts,
-    rows: HashMap<TriangleId, Option<Rc<TriangleRows>>>,
-    /// The last pair of triangles that was found to share a plane.
-    same_plane: Option<[u32; 2]>,
+    /// Rows by numbers of triangles, and how many there are.
+    rows: Vec<Option<Rc<TriangleRows>>>,
+    kept: usize,
+    /// The last pair that was found to share a plane, candidate and nearest so far, by numbers.
+    same_plane: [u32; 2],
+    /// Whether the candidate of that pair goes before.
+    candidate_wins: bool,
 }
 
 /// Lanes of one block, one triangle, that f32 does not decide.
@@ -42,8 +45,8 @@ pub(super) struct Doubtful {
     pub(super) block: usize,
     /// The triangle, by its number among the drawn ones.
     pub(super) number: u32,
-    /// Values of its edges, off by less than 1.
-    pub(super) edges: [[f32; 16]; 3],
+    /// Lanes that it certainly covers.
+    pub(super) covered: u16,
     /// Certain bounds of its 1/w.
     pub(super) low: [f32; 16],
     pub(super) high: [f32; 16],
@@ -71,8 +74,10 @@ impl<'a> Doubt<'a> {
             window,
             exact: ExactStage::new(plane, mesh),
             levels: LevelCounts::default(),
-            rows: HashMap::new(),
-            same_plane: None,
+            rows: Vec::new(),
+            kept: 0,
+            same_plane: [NOTHING; 2],
+            candidate_wins: false,
         }
     }
 
@@ -86,18 +91,30 @@ impl<'a> Doubt<'a> {
         drawn: &[Drawn],
         doubtful: &Doubtful,
     ) {
-        let (block, id) = (doubtful.block, drawn[doubtful.number as usize].id);
+        let block = doubtful.block;
         let mut left = doubtful.lanes;
         while left != 0 {
             let lane = left.trailing_zeros() as usize;
             left &= left - 1;
+            let covered = doubtful.covered >> lane & 1 == 1;
+            let winner = &mut blocks.winner[block].0[lane];
+            if covered && self.same_plane == [doubtful.number, *winner & !SAME_DEPTH] {
+                self.levels.double += 1;
+                if self.candidate_wins {
+                    *winner = doubtful.number;
+                    blocks.low[block].0[lane] = doubtful.low[lane];
+                    blocks.high[block].0[lane] = doubtful.high[lane];
+                }
+                blocks.winner[block].0[lane] |= SAME_DEPTH;
+                continue;
+            }
             // Outside the tile.
             if blocks.low[block].0[lane] == f32::INFINITY {
                 continue;
             }
             let pixel = blocks::pixel(grid, self.window, block, lane);
-            if !doubtful.edges.iter().all(|edge| edge[lane] > 1.0) {
-                let Some(rows) = self.rows_of(id) else { continue };
+            if !covered {
+                let Some(rows) = self.rows_of(drawn, doubtful.number) else { continue };
                 let covered = coverage(&mut self.exact, &mut self.levels, &rows, [true; 3], pixel);
                 if covered.is_none() {
                     continue;
@@ -127,7 +144,7 @@ impl<'a> Doubt<'a> {
             id: id.get(),
             volume_sign: candidate.rows.volume_sign,
         });
-        self.rows.insert(id, Some(Rc::new(candidate.rows.clone())));
+        self.keep(number as usize, Rc::new(candidate.rows.clone()));
         let mut fragments = Vec::new();
         scan(self.window, candidate, &mut self.exact, &mut self.levels, |pixel, fragment| {
             fragments.push((pixel, fragment.inverse_depth));
@@ -162,8 +179,7 @@ impl<'a> Doubt<'a> {
         } else if high < blocks.low[block].0[lane] {
             Order::Behind
         } else {
-            let nearest = drawn[(winner & !SAME_DEPTH) as usize].id;
-            self.order(drawn[number as usize].id, nearest, pixel)
+            self.order(drawn, [number, winner & !SAME_DEPTH], pixel)
         };
         blocks.winner[block].0[lane] = match order {
             Order::Behind => return,
@@ -178,14 +194,12 @@ impl<'a> Doubt<'a> {
     }
 
     /// How two triangles that cover a sample lie there.
-    fn order(&mut self, candidate: u32, nearest: u32, pixel: Pixel) -> Order {
+    fn order(&mut self, drawn: &[Drawn], pair: [u32; 2], pixel: Pixel) -> Order {
+        let [candidate, nearest] = pair.map(|number| drawn[number as usize].id);
         let lowest_id = (candidate < nearest) != mutant::is(Mutant::LastIdInPlane);
-        if self.same_plane == Some([candidate, nearest]) {
-            self.levels.double += 1;
-            return Order::SameDepth { candidate_wins: lowest_id };
-        }
         // Only triangles with V ≠ 0 cover, so that there always are rows and an order.
-        let (Some(new), Some(old)) = (self.rows_of(candidate), self.rows_of(nearest)) else {
+        let (Some(new), Some(old)) = (self.rows_of(drawn, pair[0]), self.rows_of(drawn, pair[1]))
+        else {
             return Order::Behind;
         };
         let [x, y] = pixel.sample();
@@ -216,7 +230,7 @@ impl<'a> Doubt<'a> {
             Ordering::Equal => lowest_id,
         };
         if order.moved == Ordering::Equal {
-            self.same_plane = Some([candidate, nearest]);
+            (self.same_plane, self.candidate_wins) = (pair, wins);
         }
         match order.at_sample {
             Ordering::Equal => Order::SameDepth { candidate_wins: wins },
@@ -225,22 +239,32 @@ impl<'a> Doubt<'a> {
         }
     }
 
-    /// A triangle's f64 rows; `None` when V = 0.
-    pub(super) fn rows_of(&mut self, id: u32) -> Option<Rc<TriangleRows>> {
-        let id = TriangleId::new(id);
-        if self.rows.len() >= KEPT_ROWS && !self.rows.contains_key(&id) {
-            self.rows.clear();
+    /// f64 rows of a drawn triangle, by its number; `None` when V = 0.
+    pub(super) fn rows_of(&mut self, drawn: &[Drawn], number: u32) -> Option<Rc<TriangleRows>> {
+        let number = number as usize;
+        if let Some(Some(rows)) = self.rows.get(number) {
+            return Some(Rc::clone(rows));
         }
-        let (plane, mesh) = (self.plane, self.mesh);
-        let rows = self.rows.entry(id).or_insert_with(|| {
-            let corners = mesh.triangle(id);
-            let rows = Projection::new(plane, corners).rows(plane, id, || {
-                let exact = ExactTriangle::new(plane, corners)?;
-                Some((exact.volume_sign, exact.volume(plane)))
-            });
-            rows.map(Rc::new)
-        });
-        rows.clone()
+        let id = TriangleId::new(drawn[number].id);
+        let corners = self.mesh.triangle(id);
+        let rows = Projection::new(self.plane, corners).rows(self.plane, id, || {
+            let exact = ExactTriangle::new(self.plane, corners)?;
+            Some((exact.volume_sign, exact.volume(self.plane)))
+        })?;
+        let rows = Rc::new(rows);
+        self.keep(number, Rc::clone(&rows));
+        Some(rows)
+    }
+
+    fn keep(&mut self, number: usize, rows: Rc<TriangleRows>) {
+        if self.kept == KEPT_ROWS {
+            (self.rows, self.kept) = (Vec::new(), 0);
+        }
+        if self.rows.len() <= number {
+            self.rows.resize(number + 1, None);
+        }
+        self.rows[number] = Some(rows);
+        self.kept += 1;
     }
 }
 

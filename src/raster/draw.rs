@@ -60,6 +60,14 @@ fn row<S: Simd>(simd: S, rows: &TileRows, k: usize, lane: usize) -> Splat<S> {
     }
 }
 
+/// What is drawn: the lanes of `lanes`; lane k is triangle `numbers[k]` of `drawn`.
+pub(super) struct Octet<'a> {
+    pub(super) rows: &'a TileRows,
+    pub(super) lanes: u64,
+    pub(super) drawn: &'a [Drawn],
+    pub(super) numbers: &'a [u32; 8],
+}
+
 /// Room to draw in.
 pub(super) struct Drawing {
     values: Vec<Values>,
@@ -79,19 +87,17 @@ impl Drawing {
         }
     }
 
-    /// Draws the lanes of `lanes`; lane k is triangle `numbers[k]` of `drawn`.
+    /// Draws an octet's lanes.
     #[inline(always)]
     pub(super) fn draw<S: Simd, const CERTIFIED: bool, const COUNTING: bool>(
         &mut self,
         simd: S,
         grid: &BlockGrid,
         blocks: &mut Blocks,
-        rows: &TileRows,
-        lanes: u64,
-        drawn: &[Drawn],
-        numbers: &[u32; 8],
+        octet: &Octet<'_>,
         doubt: &mut Doubt<'_>,
     ) {
+        let Octet { rows, lanes, drawn, numbers } = *octet;
         let count = self.list::<S, CERTIFIED>(simd, grid, blocks, rows, lanes);
         let mut changed = [0_u64; 4];
         for index in 0..count {
@@ -142,17 +148,14 @@ impl Drawing {
             let any = visible.to_bitmask() != 0;
             changed[block >> 6] |= u64::from(any) << (block & 63);
             if doubtful != 0 {
-                let (mut edges, mut interval) = ([[0.0; 16]; 3], [[0.0; 16]; 2]);
-                for (k, edge) in edges.iter_mut().enumerate() {
-                    values.at(simd, k, block).store_slice(edge);
-                }
+                let mut interval = [[0.0; 16]; 2];
                 low.store_slice(&mut interval[0]);
                 high.store_slice(&mut interval[1]);
                 let doubtful = Doubtful {
                     lanes: doubtful as u16,
                     block,
                     number: numbers[lane],
-                    edges,
+                    covered: covered.to_bitmask() as u16,
                     low: interval[0],
                     high: interval[1],
                 };

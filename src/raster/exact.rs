@@ -154,9 +154,13 @@ fn cross(a: &[IBig; 3], b: &[IBig; 3]) -> [IBig; 3] {
     [&a[1] * &b[2] - &a[2] * &b[1], &a[2] * &b[0] - &a[0] * &b[2], &a[0] * &b[1] - &a[1] * &b[0]]
 }
 
-/// Most bits of a coordinate for which [`same_plane`] works in i128: differences have one more,
-/// their products two factors of it and a sum one more, the determinant 3·(bits + 1) + 3 < 127.
-const SHORT_BITS: i64 = 40;
+/// Most bits of a coordinate for which [`same_plane`] works in i128. Differences have 56 bits then,
+/// a normal's components 113, and the determinant is below 2^171.
+const SHORT_BITS: i64 = 55;
+
+/// Below this a computed determinant is one below 2^128: each of its three products rounds three
+/// times, and two sums round, in all by less than 3·2^169·6·2^-53 < 2^121.
+const BELOW_MODULUS: f64 = (1_u128 << 127) as f64;
 
 /// Whether two triangles certainly lie in one plane: the corners of the one have determinant 0 with
 /// those of the other. `false` also where the corners' numbers are too long for i128.
@@ -180,10 +184,13 @@ fn same_plane(mesh: &TriangleMesh, a: TriangleId, b: TriangleId) -> bool {
     let minus = |p: [i128; 3]| [p[0] - a0[0], p[1] - a0[1], p[2] - a0[2]];
     let (p, q) = (minus(a1), minus(a2));
     let normal = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
-    others
-        .into_iter()
-        .map(minus)
-        .all(|r| normal[0] * r[0] + normal[1] * r[1] + normal[2] * r[2] == 0)
+    others.into_iter().map(minus).all(|r| {
+        // 0 modulo 2^128, and below 2^128.
+        let product = |k: usize| normal[k].wrapping_mul(r[k]);
+        let rounded = |k: usize| normal[k] as f64 * r[k] as f64;
+        product(0).wrapping_add(product(1)).wrapping_add(product(2)) == 0
+            && (rounded(0) + rounded(1) + rounded(2)).abs() < BELOW_MODULUS
+    })
 }
 
 /// Exact triangles that one tile has asked for, and the depth rows of its present candidate.

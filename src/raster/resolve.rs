@@ -28,11 +28,12 @@ pub(super) fn write(
     let mut last: Option<(u32, Rc<TriangleRows>, Rc<ExactTriangle>)> = None;
     for pixel in window.pixels() {
         let (block, lane) = blocks::place(grid, window, pixel);
-        let Some((drawn, same_depth)) = tile.winner(block, lane) else { continue };
+        let Some((number, same_depth)) = tile.winner(block, lane) else { continue };
+        let drawn = &tile.drawn[number as usize];
         // Neighbouring pixels mostly show the same triangle.
         let known = match last.take() {
             Some(known) if known.0 == drawn.id => Some(known),
-            _ => doubt.rows_of(drawn.id).and_then(|rows| {
+            _ => doubt.rows_of(&tile.drawn, number).and_then(|rows| {
                 let exact = doubt.exact.triangle(TriangleId::new(drawn.id))?;
                 Some((drawn.id, rows, exact))
             }),

@@ -60,7 +60,7 @@ impl<S: Simd> ScreenBoxes<S> {
         let from = (low - (low.abs() * SHARE + self.room) - 0.5).ceil();
         let mut to = (high + (high.abs() * SHARE + self.room) - 0.5).floor();
         if mutant::is(Mutant::ShortBounds) {
-            to = to - 1.0;
+            to -= 1.0;
         }
         let front = mask32x16::from_bitmask(simd, front | front << 8);
         [front.select(from.max(self.first), self.first), front.select(to.min(self.last), self.last)]

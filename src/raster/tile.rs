@@ -4,14 +4,12 @@
 
 use super::blocks::{BlockGrid, Blocks, NOTHING, SAME_DEPTH};
 use super::doubt::Doubt;
-use super::draw::Drawing;
+use super::draw::{Drawing, Octet};
 use super::frame::Frame;
 use super::image_plane::ImagePlane;
 use super::octet::{Corners, OCTET};
 use super::placement::Placement;
-use super::screen_box::ScreenBoxes;
-use super::tile_lists::Grid;
-use super::tile_rows::{Drawn, TileRows, tile_frame};
+use super::tile_rows::{Drawn, TileFrame, TileRows};
 use crate::mesh::TriangleMesh;
 use crate::pixel::Window;
 use crate::simd::SimdLevel;
@@ -95,9 +93,7 @@ impl Tile {
         window: Window,
         doubt: &mut Doubt<'_>,
     ) {
-        let place = tile_frame(&tiling.blocks, window);
-        // The boxes need no tiles here.
-        let boxes = ScreenBoxes::new(simd, &tiling.frame, window, Grid::new(window, 1));
+        let place = TileFrame::new(simd, &tiling.frame, &tiling.blocks, window);
         for octet in self.triangles.chunks(OCTET) {
             for (lane, &id) in octet.iter().enumerate() {
                 self.corners.set(lane, tiling.mesh, id);
@@ -111,7 +107,6 @@ impl Tile {
                 simd,
                 &tiling.frame,
                 &place,
-                &boxes,
                 &self.corners,
                 lanes,
                 farthest,
@@ -127,23 +122,21 @@ impl Tile {
                 numbers[lane] = self.drawn.len() as u32;
                 self.drawn.push(self.rows.drawn(&tiling.frame, lane, octet[lane]));
             }
+            let octet = Octet { rows: &self.rows, lanes, drawn: &self.drawn, numbers: &numbers };
             self.drawing.draw::<S, CERTIFIED, COUNTING>(
                 simd,
                 &tiling.blocks,
                 &mut self.blocks,
-                &self.rows,
-                lanes,
-                &self.drawn,
-                &numbers,
+                &octet,
                 doubt,
             );
         }
     }
 
-    /// The triangle that is visible at a lane, and whether another has the same depth there.
-    pub(super) fn winner(&self, block: usize, lane: usize) -> Option<(&Drawn, bool)> {
+    /// The number of the triangle that is visible at a lane, and whether another has the same depth
+    /// there.
+    pub(super) fn winner(&self, block: usize, lane: usize) -> Option<(u32, bool)> {
         let winner = self.blocks.winner[block].0[lane];
-        let drawn = (winner != NOTHING).then(|| &self.drawn[(winner & !SAME_DEPTH) as usize])?;
-        Some((drawn, winner & SAME_DEPTH != 0))
+        (winner != NOTHING).then_some((winner & !SAME_DEPTH, winner & SAME_DEPTH != 0))
     }
 }

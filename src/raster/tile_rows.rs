@@ -21,10 +21,13 @@
 use super::blocks::BlockGrid;
 use super::frame::Frame;
 use super::octet::{Corners, Images, Lanes, Plane, Triple};
+use super::placement::eye_plane;
 use super::screen_box::ScreenBoxes;
+use super::tile_lists::Grid;
 use crate::mutant::{self, Mutant};
+use crate::pixel::{Pixel, Window};
 use fearless_simd::prelude::*;
-use fearless_simd::{f32x16, f64x8};
+use fearless_simd::{f32x16, f64x8, mask32x16};
 
 /// 2^-20: S times this is an edge row's unit.
 const UNIT: f64 = 1.0 / (1 << 20) as f64;
@@ -45,11 +48,22 @@ const HIDDEN: f64 = 1.0 + UNIT;
 const KNOWN: f64 = (1 << 30) as f64;
 
 /// Where a tile lies and how far it reaches.
-pub(super) struct TileFrame {
+pub(super) struct TileFrame<S: Simd> {
     /// The first sample.
-    pub(super) origin: [f64; 2],
+    origin: [f64; 2],
     /// Largest offset of a sample, T.
-    pub(super) reach: f64,
+    reach: f64,
+    boxes: ScreenBoxes<S>,
+}
+
+impl<S: Simd> TileFrame<S> {
+    #[inline(always)]
+    pub(super) fn new(simd: S, frame: &Frame, grid: &BlockGrid, tile: Window) -> Self {
+        let first = Pixel { x: tile.x0(), y: tile.y0() };
+        // The boxes need no tiles here.
+        let boxes = ScreenBoxes::new(simd, frame, tile, Grid::new(tile, 1));
+        Self { origin: first.sample(), reach: grid.reach(), boxes }
+    }
 }
 
 /// A triangle drawn in a tile, with what its t takes.
@@ -107,15 +121,14 @@ impl TileRows {
         &mut self,
         simd: S,
         frame: &Frame,
-        tile: &TileFrame,
-        boxes: &ScreenBoxes<S>,
+        tile: &TileFrame<S>,
         corners: &Corners,
         lanes: u64,
         farthest: f32,
     ) -> u64 {
         let images = Images::new(simd, frame, corners);
         let [a, b, c] = &images.points;
-        let [front, _] = super::placement::eye_plane(simd, frame, &images);
+        let [front, _] = eye_plane(simd, frame, &images);
         let mut lanes = lanes;
         if farthest > 0.0 {
             // 1/w of a covered sample is a mean of the corners' 1/w, where all w are positive.
@@ -123,7 +136,7 @@ impl TileRows {
             let hidden = (least_w * f64::from(farthest)).simd_gt(HIDDEN);
             lanes &= !(hidden.to_bitmask() & front);
         }
-        lanes &= !boxes.blocks(simd, &images, front, &mut self.from, &mut self.to);
+        lanes &= !tile.boxes.blocks(simd, &images, front, &mut self.from, &mut self.to);
         if lanes == 0 {
             return 0;
         }
@@ -220,21 +233,21 @@ impl TileRows {
 
 /// C of a row at the tile's first sample.
 #[inline(always)]
-fn moved<S: Simd>(tile: &TileFrame, row: &Triple<S>) -> f64x8<S> {
+fn moved<S: Simd>(tile: &TileFrame<S>, row: &Triple<S>) -> f64x8<S> {
     let [x, y] = tile.origin;
     row[0] * x + (row[1] * y + row[2])
 }
 
 /// S of a row, for its C at the tile's first sample.
 #[inline(always)]
-fn magnitude<S: Simd>(tile: &TileFrame, row: &Triple<S>, c: f64x8<S>) -> f64x8<S> {
+fn magnitude<S: Simd>(tile: &TileFrame<S>, row: &Triple<S>, c: f64x8<S>) -> f64x8<S> {
     c.abs() + (row[0].abs() + row[1].abs()) * tile.reach
 }
 
 /// An edge row in its unit, from the tile's first sample.
 #[inline(always)]
 fn edge_row<S: Simd>(
-    tile: &TileFrame,
+    tile: &TileFrame<S>,
     row: &Triple<S>,
     least_unit: f64x8<S>,
     inside: f64x8<S>,
@@ -246,12 +259,6 @@ fn edge_row<S: Simd>(
 
 /// Lanes 8…15: those of 1/w.
 #[inline(always)]
-fn mask_of_depth<S: Simd>(simd: S) -> fearless_simd::mask32x16<S> {
-    fearless_simd::mask32x16::from_bitmask(simd, 0xff00)
-}
-
-/// A tile's place.
-pub(super) fn tile_frame(grid: &BlockGrid, tile: crate::pixel::Window) -> TileFrame {
-    let first = crate::pixel::Pixel { x: tile.x0(), y: tile.y0() };
-    TileFrame { origin: first.sample(), reach: grid.reach() }
+fn mask_of_depth<S: Simd>(simd: S) -> mask32x16<S> {
+    mask32x16::from_bitmask(simd, 0xff00)
 }
