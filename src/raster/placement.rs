@@ -321,7 +321,7 @@ fn is_behind<S: Simd>((point, size): (&Triple<S>, f64x8<S>)) -> mask64x8<S> {
 /// Triangles that are not for the kernels: unless |V| is certainly at least ¾ of what it is computed
 /// to be, and N/V of a size for f32 at every sample. NaN makes a triangle hard.
 #[inline(always)]
-fn hard_lanes<S: Simd>(simd: S, frame: &Frame, plane: &Plane<S>) -> u64 {
+pub(super) fn hard_lanes<S: Simd>(simd: S, frame: &Frame, plane: &Plane<S>) -> u64 {
     let size = plane.volume.abs();
     let certain = size.simd_gt(plane.volume_size * (4.0 * frame.volume_error));
     let most = plane.size * (2.0 * frame.row_magnitude);
