@@ -129,14 +129,15 @@ pub struct VisibilityBuffer {
     pub levels: LevelCounts,
 }
 
-/// Only the nearest triangle at every pixel of a window, row by row.
+/// The nearest triangle of every pixel of a window and its ray parameter, row by row: what a z-buffer
+/// holds, and no more.
 #[derive(Clone, Debug, PartialEq)]
 pub struct NearestBuffer {
     /// Which pixels.
     pub window: Window,
-    /// The visible triangle's id, `u32::MAX` where nothing is visible.
+    /// The visible triangle's id, exact; `u32::MAX` where nothing is visible.
     pub ids: Vec<u32>,
-    /// Its ray parameter t, to a relative 2^-18; infinite where nothing is visible.
+    /// The ray parameter t, to a relative 2^-18; +∞ where nothing is visible.
     pub t: Vec<f32>,
     /// Decisions per level.
     pub levels: LevelCounts,

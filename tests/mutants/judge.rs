@@ -112,9 +112,10 @@ impl Judged {
                     })
                     .collect()
             }
-            Path::Raster => TILE_SIDES
+            Path::Raster => [Counting::All, Counting::Nearest]
                 .into_iter()
-                .map(|side| rasterize_in_tiles(scene, window, Counting::All, side, &|| ()))
+                .zip(TILE_SIDES)
+                .map(|(counting, side)| rasterize_in_tiles(scene, window, counting, side, &|| ()))
                 .collect(),
             Path::Exact => {
                 let found = answers(scene);
