@@ -22,6 +22,7 @@ mod kernel;
 mod kernel_effects;
 mod lights;
 mod method;
+mod power;
 mod reach;
 pub mod reflection;
 mod specular;

@@ -120,7 +120,7 @@ fn light_up<const E: u8, W: Watch>(
                 return;
             };
             term.distance = Some(way.length);
-            let n_dot_l = vector::dot(geometry.normal, way.scaled) / way.scaled_length;
+            let n_dot_l = vector::dot(geometry.normal, way.scaled) * way.inverse();
             (way.unit(), n_dot_l, Some((at, way.length)))
         }
         Origin::Position(_) | Origin::Hemisphere(_) | Origin::Nowhere => return,

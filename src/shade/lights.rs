@@ -9,10 +9,11 @@ use crate::color::LinearRgb;
 use crate::scene::light::{HemisphereLight, Light, LightColors};
 use crate::scene::switches::Rules;
 
-/// Slack of the cone's rim, as a chord between unit vectors (|L − S|): 8·2^-53. L and S are each
-/// off by up to 3·2^-53, the sine and its argument by 2·2^-53, so that a point exactly on the rim
-/// is lit. The cone grows by 9e-16 rad at most up to a cutoff of 120°.
-const RIM_SLACK: f64 = 8.0 * f64::EPSILON / 2.0;
+/// Slack of the cone's rim, as a chord between unit vectors (|L − S|): 10·2^-53, so that a point
+/// exactly on the rim is lit. L is off by up to 4.5·2^-53 (the root of the squares 2.5, the
+/// reciprocal and the product 1 each), S by 3.5·2^-53, the sine and its argument by 2·2^-53. The cone
+/// grows by 2.3e-15 rad at most up to a cutoff of 120°.
+const RIM_SLACK: f64 = 10.0 * f64::EPSILON / 2.0;
 
 /// A light whose effects are on; a colour that is off or cannot matter is black.
 #[derive(Clone, Debug)]
@@ -267,7 +268,7 @@ mod tests {
                     outside = middle;
                 }
             }
-            // Rounding of the chord: 9e-16 against a cutoff of 1.7e-8 rad, and 9e-16/cos(89.5°).
+            // Rounding of the chord: 1.2e-15 against a cutoff of 1.7e-8 rad, and over cos(89.5°).
             assert!((inside / cutoff - 1.0).abs() < 1e-6, "{cutoff}: {inside}");
         }
     }
