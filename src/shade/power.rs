@@ -13,10 +13,7 @@
 //! makes 1.5u, s·P ≤ ½ another 6u, the sum u: 10u at most. The product with e: u. Power: r =
 //! t − round(t) is exact; 2^r = 1 + r·Q(r) with |r| ≤ ½, r·Q < 0.42 good to 5u, makes 3.5u after
 //! the sum, and Q is off by 2e-17. So the result p is off by p·|ln p|·11u + p·4u < 8.1u = 9e-16,
-//! since p·|ln p| ≤ 1/e: [`ERROR`].
-
-/// Largest absolute error of [`power`], whose values lie in 0…1: see the head of the module.
-pub(super) const ERROR: f64 = 9e-16;
+//! since p·|ln p| ≤ 1/e. The test holds it.
 
 /// √½ as the smallest mantissa: m lies in √½ … √2, where (m − 1)/(m + 1) is smallest.
 pub(super) const SMALLEST_MANTISSA: u64 = 0x3fe6_a09e_667f_3bcd;
@@ -117,6 +114,9 @@ pub(super) fn exp2(t: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Largest absolute error of [`power`], whose values lie in 0…1: see the head of the module.
+    const ERROR: f64 = 9e-16;
 
     /// libm's functions are good to 1 unit of the last place: 2u·e·|log|·p + 2u·p, and u more for the
     /// product.
