@@ -162,12 +162,10 @@ fn fill<S: Simd>(
         let (position, normal) = (base(&attributes.position), base(&attributes.normal));
         for column in (0..width).step_by(16) {
             let x = lane + column as f32;
-            let along = |base: [f32; 3], right: [f32; 3]| {
-                [0, 1, 2].map(|k| x.mul_add(f32x16::splat(simd, right[k]), base_of(simd, base[k])))
-            };
-            let p = along(position, attributes.position[1]);
-            let n = normalized(simd, along(normal, attributes.normal[1]));
-            let v = normalized(simd, [0, 1, 2].map(|k| base_of(simd, eye[k]) - p[k]));
+            let p = along(simd, position, attributes.position[1], x);
+            let n = normalized(simd, along(simd, normal, attributes.normal[1], x));
+            let eye = [base_of(simd, eye[0]), base_of(simd, eye[1]), base_of(simd, eye[2])];
+            let v = normalized(simd, [eye[0] - p[0], eye[1] - p[1], eye[2] - p[2]]);
             let mut rgb = [base_of(simd, 0.0); 3];
             for spot in spots {
                 add_spot(simd, spot, exponent, [p, n, v], &mut rgb);
@@ -181,6 +179,16 @@ fn fill<S: Simd>(
 }
 
 type Lanes<S> = f32x16<S>;
+
+#[inline(always)]
+fn along<S: Simd>(simd: S, base: [f32; 3], right: [f32; 3], x: Lanes<S>) -> [Lanes<S>; 3] {
+    let of = |value: f32| base_of(simd, value);
+    [
+        x.mul_add(of(right[0]), of(base[0])),
+        x.mul_add(of(right[1]), of(base[1])),
+        x.mul_add(of(right[2]), of(base[2])),
+    ]
+}
 
 #[inline(always)]
 fn base_of<S: Simd>(simd: S, value: f32) -> Lanes<S> {
@@ -216,18 +224,34 @@ fn add_spot<S: Simd>(
     let n_dot_l = dot(n, l);
     let l_dot_s = dot(l, [of(spot.axis[0]), of(spot.axis[1]), of(spot.axis[2])]);
     let lit: mask32x16<S> = n_dot_l.simd_gt(0.0) & l_dot_s.simd_ge(spot.cosine);
-    let [a, b, c] = spot.attenuation.map(of);
+    let [a, b, c] = spot.attenuation;
+    let (a, b, c) = (of(a), of(b), of(c));
     let denominator = distance.mul_add(distance.mul_add(c, b), a);
     let factor = power(simd, l_dot_s, spot.exponent) / denominator;
     let factor = lit.select(factor, of(0.0));
     let h = normalized(simd, [l[0] + v[0], l[1] + v[1], l[2] + v[2]]);
     let highlight = power(simd, dot(n, h), exponent) * factor;
     let matte = n_dot_l * factor;
-    for k in 0..3 {
-        rgb[k] = matte.mul_add(of(spot.diffuse[k]), rgb[k]);
-        rgb[k] = highlight.mul_add(of(spot.specular[k]), rgb[k]);
+    let colors = spot.diffuse.into_iter().zip(spot.specular);
+    for (channel, (diffuse, specular)) in rgb.iter_mut().zip(colors) {
+        *channel = matte.mul_add(of(diffuse), *channel);
+        *channel = highlight.mul_add(of(specular), *channel);
     }
 }
+
+/// log2(1 + f)/f on √½ … √2, and 2^r on −½ … ½, each to 2·10^-7.
+const LOGARITHM: [f32; 8] = [
+    std::f32::consts::LOG2_E,
+    -0.721_352_9,
+    0.480_916_7,
+    -0.360_225_2,
+    0.287_288_9,
+    -0.249_271_8,
+    0.232_652_6,
+    -0.142_759_7,
+];
+const POWER: [f32; 6] =
+    [1.0, std::f32::consts::LN_2, 0.240_223_5, 0.055_503_8, 0.009_666_39, 0.001_338_132];
 
 /// x^e for x in 0…1, good to about e·2^-22.
 #[inline(always)]
@@ -239,23 +263,15 @@ fn power<S: Simd>(simd: S, x: Lanes<S>, e: f32) -> Lanes<S> {
     let f: Lanes<S> = (bits - (above << 23_u32)).bitcast();
     let f = f - 1.0;
     let whole: Lanes<S> = above.to_float();
-    let mut log = of(-0.142_759_73);
-    for c in [
-        0.232_652_58,
-        -0.249_271_82,
-        0.287_288_88,
-        -0.360_225_18,
-        0.480_916_7,
-        -0.721_352_93,
-        1.442_695,
-    ] {
+    let mut log = of(LOGARITHM[7]);
+    for c in LOGARITHM.into_iter().rev().skip(1) {
         log = log.mul_add(f, of(c));
     }
     let t = (log.mul_add(f, whole) * e).max(of(-126.0));
     let rounded = t.round_ties_even();
     let r = t - rounded;
-    let mut fraction = of(0.001_338_132_2);
-    for c in [0.009_666_388, 0.055_503_81, 0.240_223_49, 0.693_147_2, 1.0] {
+    let mut fraction = of(POWER[5]);
+    for c in POWER.into_iter().rev().skip(1) {
         fraction = fraction.mul_add(r, of(c));
     }
     let bits: i32x16<S> = fraction.bitcast();

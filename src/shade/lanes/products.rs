@@ -84,8 +84,8 @@ impl Products {
             (DIFFUSE, of.diffuse),
             (SPECULAR, of.specular),
         ] {
-            for k in 0..3 {
-                self.varying[at + k][pixel] = color[k];
+            for (row, value) in self.varying[at..at + 3].iter_mut().zip(color) {
+                row[pixel] = value;
             }
         }
         self.varying[EXPONENT][pixel] = of.exponent;
