@@ -22,6 +22,7 @@ pub mod shadow;
 mod single;
 mod strips;
 mod tile;
+mod unproven;
 mod unrounded;
 mod whole;
 
@@ -35,6 +36,7 @@ use crate::visibility::{
 };
 pub use layers::cast_layers;
 pub use nearest::{cast_nearest, cast_nearest_into};
+pub use unproven::{Unproven, cast_unproven, cast_unproven_into};
 
 use candidate::Candidate;
 use memo::{PicturePairs, SamePlane};
