@@ -8,6 +8,8 @@
 //! algorithm*, 2005; edge functions over a tile: J. Pineda, 1988. Here no cover is counted and no
 //! weight computed.
 
+#[cfg(test)]
+mod audit;
 mod cone;
 mod cull;
 mod draw;
