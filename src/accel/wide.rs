@@ -116,6 +116,10 @@ pub(super) fn widen(tree: &Tree) -> WideTree {
         0 => spans[child.first as usize],
         count => [child.first, child.first + count],
     };
+    // Room for padding, so that nothing is copied in growing; memory that is not written costs none.
+    let lanes = tree.triangles.len() * 3 / 2 + WIDTH;
+    wide.vertices.reserve(9 * lanes);
+    wide.ids.reserve(lanes);
     let whole = bounds_of(tree, root);
     wide.reach = std::array::from_fn(|k| whole.lo[k].abs().max(whole.hi[k].abs()));
     let [first, end] = span_of(root);
