@@ -8,8 +8,9 @@ use super::draw::{Drawing, Octet};
 use super::frame::Frame;
 use super::image_plane::ImagePlane;
 use super::octet::{Corners, OCTET};
+use super::order::Order;
 use super::placement::Placement;
-use super::tile_rows::{Drawn, TileFrame, TileRows};
+use super::tile_rows::{Drawn, TileFrame, TileRows, is_hidden};
 use crate::mesh::TriangleMesh;
 use crate::pixel::Window;
 use crate::simd::SimdLevel;
@@ -46,7 +47,7 @@ pub(super) struct Tile {
     /// The triangles that were drawn, by number.
     pub(super) drawn: Vec<Drawn>,
     counting: bool,
-    triangles: Vec<u32>,
+    order: Order,
     drawing: Drawing,
     rows: TileRows,
     corners: Corners,
@@ -58,7 +59,7 @@ impl Tile {
             blocks: Blocks::new(counting),
             drawn: Vec::new(),
             counting,
-            triangles: Vec::new(),
+            order: Order::default(),
             drawing: Drawing::new(),
             rows: TileRows::new(),
             corners: Corners::new(),
@@ -70,7 +71,8 @@ impl Tile {
         let mut doubt = Doubt::new(tiling.plane, &tiling.frame, tiling.mesh, window);
         self.blocks.clear(&tiling.blocks, window);
         self.drawn.clear();
-        tiling.placement.triangles(window, &mut self.triangles);
+        tiling.placement.triangles(window, &mut self.order);
+        self.order.sort();
         match self.counting {
             false => dispatch!(tiling.simd.dispatched(), simd => {
                 self.draw_octets::<_, true, false>(simd, tiling, window, &mut doubt);
@@ -94,7 +96,12 @@ impl Tile {
         doubt: &mut Doubt<'_>,
     ) {
         let place = TileFrame::new(simd, &tiling.frame, &tiling.blocks, window);
-        for octet in self.triangles.chunks(OCTET) {
+        let mut class = 0;
+        for (index, octet) in self.order.sorted().chunks(OCTET).enumerate() {
+            let least_w = self.order.least_w(index * OCTET, &mut class);
+            if !COUNTING && is_hidden(least_w, self.blocks.farthest_of_all) {
+                break;
+            }
             for (lane, &id) in octet.iter().enumerate() {
                 self.corners.set(lane, tiling.mesh, id);
             }
