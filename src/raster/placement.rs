@@ -117,6 +117,15 @@ impl Placement {
     }
 }
 
+/// Eight triangles to be placed by their edges.
+struct Octet<'a, S: Simd> {
+    first: u32,
+    tiles: &'a [Lanes<i32>; 2],
+    images: &'a Images<S>,
+    plane: &'a Plane<S>,
+    keys: &'a [u16; 8],
+}
+
 /// A chunk at work.
 struct Placing<'a> {
     frame: &'a Frame,
@@ -214,22 +223,15 @@ impl<'a> Placing<'a> {
             }
         }
         if large != 0 {
-            self.by_edges(simd, first, large, &tiles, &images, &plane, &keys);
+            let octet = Octet { first, tiles: &tiles, images: &images, plane: &plane, keys: &keys };
+            self.by_edges(simd, large, &octet);
         }
     }
 
     /// The tiles of large triangles: those of the box that no edge excludes.
     #[inline(always)]
-    fn by_edges<S: Simd>(
-        &mut self,
-        simd: S,
-        first: u32,
-        large: u64,
-        tiles: &[Lanes<i32>; 2],
-        images: &Images<S>,
-        plane: &Plane<S>,
-        keys: &[u16; 8],
-    ) {
+    fn by_edges<S: Simd>(&mut self, simd: S, large: u64, octet: &Octet<'_, S>) {
+        let Octet { first, tiles, images, plane, keys } = *octet;
         let inside = f64x8::splat(simd, 1.0).copysign(plane.volume);
         let (edges, pairs) = (images.edges(), images.size_products());
         let mut rows = [[[0.0_f64; 8]; 4]; 3];
