@@ -10,13 +10,14 @@ use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 use truecast::bench::reference::Reference;
 use truecast::bench::rounds::{Row, take_turns};
-use truecast::bench::workload::{Variant, Work, light_of};
+use truecast::bench::workload::{Answer, Variant, Work, light_of};
 use truecast::mesh::TriangleId;
 use truecast::pixel::Resolution;
 use truecast::raster::rasterize;
 use truecast::render::Unwatched;
 use truecast::scene::{Overrides, Scene};
-use truecast::visibility::{Counting, VisibilityBuffer};
+use truecast::simd::SimdLevel;
+use truecast::visibility::{Counting, LevelCounts, VisibilityBuffer, Visible};
 
 /// What is asked for unless a test asks for something else.
 const SMALL: [[&str; 2]; 3] = [["--rounds", "2"], ["--size", "32x18"], ["--threads", "1"]];
@@ -149,6 +150,15 @@ fn the_workload_is_what_was_asked_for() {
         names.sort_unstable();
         assert_eq!(names, ["build fast", "build medium", "cast fast", "cast medium"]);
     }
+    let names: Vec<&str> = SimdLevel::available().into_iter().map(SimdLevel::name).collect();
+    let levels = names.join(",");
+    let more = ["--json", "--work", "raster", "--simd", &levels];
+    let (status, stdout, stderr) = bench(folder.path(), &more);
+    assert_eq!(status, 0, "{stderr}");
+    let report: Value = serde_json::from_str(&stdout).unwrap();
+    let scenes = report["scenes"].as_array().unwrap();
+    let found: Vec<_> = scenes.iter().map(|scene| scene["simd"].as_str().unwrap()).collect();
+    assert_eq!(found, names);
     for (option, word) in [("--work", "shades"), ("--preset", "slowest"), ("--simd", "avx")] {
         let (status, stdout, stderr) = bench(folder.path(), &[option, word]);
         assert_eq!((status, &*stdout), (2, ""), "{stderr}");
@@ -216,6 +226,34 @@ fn a_wrong_kernel_has_no_time_but_its_wrong_pixels() {
     let found: Vec<_> = rows.iter().map(|row| (row.wrong_pixels, row.times.is_some())).collect();
     assert_eq!(found, [(Some(0), true), (Some(2), false), (Some(1), false)]);
     assert_eq!(rows[0].times.unwrap().n, 3);
+}
+
+#[test]
+fn ids_alone_are_held_against_what_is_right_too() {
+    let overrides = Overrides { resolution: Resolution::new(32, 18), ..Overrides::default() };
+    let scene = Scene::load(&scene_file("iteration-0.toml"), &overrides).unwrap();
+    let window = scene.camera.resolution().window();
+    let buffer = rasterize(&scene, window, Counting::Nearest, &|| ());
+    let id = |visible: &Option<Visible>| visible.map_or(u32::MAX, |v| v.triangle.get());
+    let right: Vec<u32> = buffer.visible.iter().map(id).collect();
+    let reference = Reference::of(&scene, &[buffer.clone(), buffer], 50, &Unwatched);
+    let variant = |name, ids: Vec<u32>| {
+        let answer =
+            move || Answer::Nearest { window, ids: ids.clone(), levels: LevelCounts::default() };
+        Variant::new(name, Work::Closest, window.len(), answer)
+    };
+    let mut wrong = right.clone();
+    wrong.iter_mut().take(3).for_each(|id| *id = id.wrapping_sub(1));
+    let variants = [
+        variant("right", right.clone()),
+        variant("wrong", wrong.clone()),
+        variant("short", right[1..].to_vec()),
+        variant("wrong but another's", wrong).of("another"),
+    ];
+    let rows = take_turns(&variants, &reference, 2, &Unwatched);
+    let found: Vec<_> = rows.iter().map(|row| (row.wrong_pixels, row.times.is_some())).collect();
+    let all = Some(window.len());
+    assert_eq!(found, [(Some(0), true), (Some(3), false), (all, false), (Some(3), true)]);
 }
 
 #[test]
