@@ -166,6 +166,37 @@ fn the_workload_is_what_was_asked_for() {
     }
 }
 
+#[test]
+fn a_mesh_file_is_seen_as_a_whole_or_as_it_was_asked_for() {
+    let folder = TempDir::new().unwrap();
+    // A tetrahedron far from the origin.
+    let mesh = "v 100 0 0\nv 101 0 0\nv 100 1 0\nv 100 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    fs::write(folder.path().join("mesh.obj"), mesh).unwrap();
+    let run = |more: &[&str]| {
+        let mut arguments = vec!["bench", "mesh.obj", "--json", "--work", "raster"];
+        arguments.extend(["--rounds", "1", "--size", "64x36"]);
+        arguments.extend(more);
+        truecast(folder.path(), &arguments)
+    };
+    let (status, stdout, stderr) = run(&[]);
+    assert_eq!((status, &*stderr), (0, ""));
+    let report: Value = serde_json::from_str(&stdout).unwrap();
+    let scene = &report["scenes"][0];
+    assert_eq!((&scene["scene"], &scene["triangles"]), (&"mesh.obj".into(), &4.into()));
+    let covered = scene["covered_pixels"].as_u64().unwrap();
+    assert!((100..64 * 36 / 2).contains(&covered), "{covered}");
+    // From nearer it covers more; from elsewhere nothing.
+    let view = ["--eye", "101,0.6,0.7", "--target", "100,0,0"];
+    let (status, stdout, _) = run(&view);
+    let report: Value = serde_json::from_str(&stdout).unwrap();
+    assert!(status == 0 && report["scenes"][0]["covered_pixels"].as_u64().unwrap() > covered);
+    assert_eq!(run(&["--eye", "0,0,0", "--target", "-1,0,0"]).0, 3);
+    assert_eq!(run(&["--eye", "0,0,0"]).0, 2);
+    assert_eq!(run(&["--eye", "0,0", "--target", "1,0,0"]).0, 2);
+    assert_eq!(run(&["--eye", "0,0,0", "--target", "0,9,0"]).0, 2);
+    assert_eq!(run(&["--fov", "180"]).0, 2);
+}
+
 /// One triangle, and a camera that looks away from it.
 const AWAY: &str = r#"version = 1
 [image]
