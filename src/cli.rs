@@ -14,6 +14,7 @@ mod lobe;
 mod obj_scene;
 mod output;
 mod pixel;
+mod prediction;
 mod progress;
 mod render;
 mod sheet;

@@ -4,6 +4,7 @@
 //! keeps every plane bit for bit, PNG the colours as 8-bit sRGB, NPY the triangle ids.
 
 mod check;
+mod deflate;
 mod error;
 mod exr;
 mod npy;
@@ -12,12 +13,13 @@ mod read;
 mod write;
 
 pub use self::error::FilmError;
-pub use self::exr::{decode_exr, encode_exr};
+pub use self::exr::{ExrFilm, decode_exr, encode_exr};
 pub use self::npy::encode_npy_ids;
-pub use self::png::{ClipCount, encode_picture, encode_png, srgb_picture};
+pub use self::png::{ClipCount, append_codes, encode_picture, encode_png, srgb_picture};
 pub use self::read::{NumberPlane, Numbers, PackedOrder, load_numbers};
 pub use self::write::{
     Format, check_target, check_writable, format_of, load_exr, save, write_atomic,
+    write_atomic_with,
 };
 
 use crate::pixel::{Resolution, Window};

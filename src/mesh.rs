@@ -74,6 +74,16 @@ impl TriangleMesh {
         self.corners.is_empty()
     }
 
+    /// Memory of all lists, in bytes.
+    pub fn bytes(&self) -> usize {
+        let corners = [&self.corners, &self.corner_normals, &self.corner_uvs];
+        size_of_val(&self.positions[..])
+            + corners.map(|list| size_of_val(&list[..])).iter().sum::<usize>()
+            + size_of_val(&self.normals[..])
+            + size_of_val(&self.uvs[..])
+            + size_of_val(&self.colors[..])
+    }
+
     /// The three corner positions of a triangle.
     #[inline]
     pub fn triangle(&self, id: TriangleId) -> [[f32; 3]; 3] {

@@ -5,10 +5,13 @@
 
 mod accuracy;
 mod answerer;
+mod bands;
+mod choice;
 mod describe;
 mod develop;
 pub mod expose;
 mod measure;
+mod plane_rows;
 mod planes;
 mod progress;
 pub mod shadows;
@@ -18,6 +21,7 @@ pub mod visible;
 
 pub use accuracy::Accuracy;
 pub use answerer::Answerer;
+pub use choice::{Prediction, predict};
 pub use describe::describe;
 pub use develop::develop;
 pub use expose::{Exposure, expose};
@@ -29,10 +33,10 @@ use crate::accel::BuildPreset;
 use crate::film::Film;
 use crate::pixel::Window;
 use crate::scene::Scene;
-use crate::shade::{Effects, Notes};
+use crate::shade::Notes;
 use crate::visibility::{Counting, LevelCounts, VisibilityBuffer};
 use std::time::{Duration, Instant};
-use visible::{Listing, VisibleTriangle, list_visible};
+use visible::{Listing, VisibleTriangle};
 
 /// Which of the two independent paths answers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -57,7 +61,8 @@ pub struct RenderOptions {
     pub window: Option<Window>,
     /// Which planes the film gets.
     pub planes: PlaneGroups,
-    /// BVH build preset of the cast path. It changes time, never a bit of the film.
+    /// Build preset of the cast path's BVH, or of one for shadows alone. It changes time, never a bit
+    /// of the film.
     pub preset: BuildPreset,
     /// Whether the visible triangles are listed, and how finely they are looked for.
     pub listing: Option<Listing>,
@@ -79,14 +84,18 @@ impl Default for RenderOptions {
 /// Where the time of a frame went.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FrameTimes {
-    /// Building the BVH (next to nothing on the raster path).
+    /// Building the BVH (next to nothing on the raster path, unless shadows need one).
     pub build: Duration,
+    /// Describing what the picture is made of: a digest of the scene, mostly.
+    pub describing: Duration,
     /// Finding what is visible.
     pub visibility: Duration,
     /// Shading it, with all samples and what is seen through surfaces.
     pub shading: Duration,
     /// Laying out the film's planes.
     pub developing: Duration,
+    /// Listing the visible triangles.
+    pub listing: Duration,
 }
 
 /// A rendered frame and what is to be said about it.
@@ -94,6 +103,13 @@ pub struct FrameTimes {
 pub struct Frame {
     /// The picture.
     pub film: Film,
+    /// What is to be said about it.
+    pub account: Account,
+}
+
+/// What is to be said about a frame beside its picture.
+#[derive(Clone, Debug, Default)]
+pub struct Account {
     /// Pixels at which a triangle is visible.
     pub covered_pixels: usize,
     /// Decisions per level of arithmetic.
@@ -102,57 +118,35 @@ pub struct Frame {
     pub notes: Notes,
     /// The visible triangles by id, if they were asked for.
     pub visible: Option<Vec<VisibleTriangle>>,
+    /// The film's description.
+    pub description: String,
+    /// Memory of the scene's triangles and their attributes, in bytes.
+    pub mesh_bytes: usize,
+    /// Memory of the BVH, in bytes; `None` where none was built.
+    pub tree_bytes: Option<usize>,
     /// Where the time went.
     pub times: FrameTimes,
 }
 
 /// Renders a frame.
 pub fn render(scene: &Scene, options: &RenderOptions, progress: &dyn Progress) -> Frame {
-    let window = options.window.unwrap_or(scene.camera.resolution().window());
-    let counting =
-        if options.planes.has(PlaneGroup::Cover) { Counting::All } else { Counting::Nearest };
-    let started = Instant::now();
-    let answerer = match options.accuracy {
-        Accuracy::Exact => Answerer::new(scene, options.path, options.preset, progress),
-        Accuracy::Watertight { subpixel_bits, depth_buffer } => {
-            Answerer::Watertight(subpixel_bits, depth_buffer)
-        }
-    };
-    let build = started.elapsed();
-    let started = Instant::now();
-    let buffer = answerer.see(scene, window, counting, progress);
-    let visibility = started.elapsed();
-    let started = Instant::now();
-    let layers = answerer.see_through(scene, &buffer, progress);
-    let effects = Effects::of(scene);
-    let exposure = expose(scene, &answerer, (&buffer, &layers), effects, progress);
-    let shading = started.elapsed();
-    let started = Instant::now();
-    let film = develop(
-        scene,
-        &buffer,
-        &exposure.radiance,
-        &exposure.alpha,
-        &options.planes,
-        options.accuracy,
-    );
-    let developing = started.elapsed();
-    let visible = options.listing.map(|listing| {
-        // What lies between the pixel centres is looked for exactly, however the frame was made.
-        let exact = match answerer {
-            Answerer::Watertight(..) => Answerer::Raster,
-            exact => exact,
-        };
-        list_visible(scene, &buffer, listing, &exact, progress)
-    });
-    Frame {
-        film,
-        visible,
-        covered_pixels: buffer.covered_pixels(),
-        levels: buffer.levels,
-        notes: exposure.notes,
-        times: FrameTimes { build, visibility, shading, developing },
-    }
+    let (film, account) = bands::Ready::new(scene, options, progress).whole(progress);
+    Frame { film, account }
+}
+
+/// Renders a frame and hands it on in bands of rows, from the top, each as a film of its own. Put
+/// together, they are what [`render`] makes, bit for bit, and a fraction of its memory is held. All
+/// but the last have a multiple of 64 rows.
+///
+/// # Errors
+/// What `each` gives; nothing more is rendered then.
+pub fn render_bands<E>(
+    scene: &Scene,
+    options: &RenderOptions,
+    progress: &dyn Progress,
+    each: impl FnMut(Film) -> Result<(), E>,
+) -> Result<Account, E> {
+    bands::Ready::new(scene, options, progress).in_bands(progress, each)
 }
 
 /// A visibility buffer, and the time that building and answering took.

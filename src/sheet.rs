@@ -156,7 +156,7 @@ fn render_cell(scene: &Scene, progress: &dyn Progress) -> Result<RenderedCell, F
         let values = floats(name).iter().zip(covered).filter(|(_, alpha)| **alpha == 1.0);
         values.fold(start, |so_far, (&value, _)| fold(so_far, f64::from(value)))
     };
-    let count = frame.covered_pixels;
+    let count = frame.account.covered_pixels;
     let per_channel = |start: f64, fold| {
         (count > 0).then(|| ["R", "G", "B"].map(|name| over_covered(name, start, fold)))
     };

@@ -60,9 +60,10 @@ pub(super) struct RenderArguments {
     /// NAME.exr after the scene file, or truecast.png and truecast.exr]
     #[arg(short, long = "output", value_name = "FILE")]
     pub(super) output: Vec<PathBuf>,
-    /// Which of the two independent paths answers
-    #[arg(long, value_enum, default_value_t = PathWord::Cast)]
-    pub(super) path: PathWord,
+    /// Which of the two independent paths answers [default: the one that is predicted to be quicker,
+    /// which `explain` tells; the pictures are the same]
+    #[arg(long, value_enum)]
+    pub(super) path: Option<PathWord>,
     /// How visibility is decided
     #[arg(long, value_enum, default_value_t = AccuracyWord::Exact)]
     pub(super) accuracy: AccuracyWord,

@@ -1,12 +1,13 @@
 //! `truecast explain`: what a scene is made of and which effects it calls for, and by whom.
 
+mod memory;
 mod shares;
 
 use super::arguments::ExplainArguments;
 use super::failure::Failure;
-use super::{OK, output};
+use super::{OK, output, prediction};
 use serde_json::json;
-use truecast::render::{Accuracy, ShadingTimes, describe};
+use truecast::render::{Accuracy, ShadingTimes, describe, predict};
 use truecast::scene::material::Material;
 use truecast::scene::{Overrides, Scene};
 use truecast::shade;
@@ -70,6 +71,8 @@ fn text(arguments: &ExplainArguments, scene: &Scene, times: Option<&ShadingTimes
         scene.materials.len(),
         scene.lights.len()
     );
+    text += &memory::line(scene);
+    text += &prediction::lines(&predict(scene, frame.window()));
     for (index, material) in scene.materials.iter().enumerate() {
         let Material { name, ka, kd, ks, ke, ns, unlit, .. } = material;
         let unlit = if *unlit { ", unlit" } else { "" };
@@ -130,6 +133,11 @@ fn document(
         "lattice_exponent": scene.camera.exponent(),
         "deviation_pixels": scene.camera.deviation_pixels(),
         "triangles": scene.mesh.len(),
+        "memory": memory::document(scene),
+        "predictions": prediction::predictions_document(&predict(
+            scene,
+            scene.camera.resolution().window(),
+        )),
         "meshes": scene.objects.iter().map(|object| json!({
             "name": object.name,
             "first_triangle": object.triangles.start,

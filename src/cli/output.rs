@@ -3,10 +3,11 @@
 use super::INTERRUPTED;
 use super::failure::Failure;
 use serde_json::Value;
+use std::fs::File;
 use std::io::Write;
 use std::path::Path;
 use std::sync::{Arc, Mutex};
-use truecast::film::{FilmError, check_writable, write_atomic};
+use truecast::film::{FilmError, check_writable, write_atomic, write_atomic_with};
 
 /// Held while a file is written, so that an interruption waits for the rename instead of leaving a
 /// temporary file.
@@ -30,6 +31,22 @@ pub(super) fn exit_on_interrupt() -> Writing {
 pub(super) fn save(writing: &Writing, path: &Path, bytes: &[u8]) -> Result<(), FilmError> {
     let _held = writing.lock();
     write_atomic(path, bytes)
+}
+
+/// Writes a file piece by piece, which shows in one step; says how long it became.
+pub(super) fn save_with(
+    writing: &Writing,
+    path: &Path,
+    write: impl FnOnce(&mut File) -> std::io::Result<()>,
+) -> Result<usize, FilmError> {
+    let _held = writing.lock();
+    let mut length = 0;
+    write_atomic_with(path, |file| {
+        write(file)?;
+        length = file.metadata()?.len();
+        Ok(())
+    })?;
+    Ok(usize::try_from(length).unwrap_or(usize::MAX))
 }
 
 /// Prints text to stdout. A reader that closed the pipe has what it wanted.

@@ -1,5 +1,6 @@
 //! `truecast render`: scene in, pictures out.
 
+mod outputs;
 mod report;
 
 use super::arguments::{AccuracyWord, PathWord, RenderArguments};
@@ -7,16 +8,18 @@ use super::failure::Failure;
 use super::output::{self, Writing};
 use super::progress::Bar;
 use super::{OK, on_threads};
+use outputs::Outputs;
+use report::Report;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
-use truecast::film::{
-    ClipCount, Film, FilmError, Format, encode_exr, encode_npy_ids, encode_png, format_of,
-};
+use truecast::accel::BuildPreset;
+use truecast::film::{ClipCount, Format, format_of};
 use truecast::pixel::{Resolution, Window};
 use truecast::raster::DepthBuffer;
 use truecast::render::visible::{Listing, to_csv};
 use truecast::render::{
-    Accuracy, Frame, PlaneGroup, PlaneGroups, RenderOptions, VisibilityPath, render,
+    Accuracy, PlaneGroup, PlaneGroups, Prediction, RenderOptions, VisibilityPath, predict,
+    render_bands,
 };
 use truecast::scene::{Overrides, Scene};
 use truecast::shade::Effects;
@@ -32,6 +35,11 @@ struct Written {
 }
 
 pub(super) fn run(arguments: &RenderArguments, writing: &Writing) -> Result<u8, Failure> {
+    on_threads(arguments.threads, || run_here(arguments, writing))?
+}
+
+/// From the scene to the files, on the threads of the pool that this runs in.
+fn run_here(arguments: &RenderArguments, writing: &Writing) -> Result<u8, Failure> {
     let accuracy = accuracy(arguments)?;
     let targets = targets(arguments)?;
     let planes = planes(arguments, &targets)?;
@@ -46,40 +54,47 @@ pub(super) fn run(arguments: &RenderArguments, writing: &Writing) -> Result<u8, 
         output::print_warnings(&scene.warnings);
     }
     refuse_effects(accuracy, &scene)?;
+    let window = window(arguments, scene.camera.resolution())?;
+    let predictions = predict(&scene, window.unwrap_or(scene.camera.resolution().window()));
+    let (path, preset) = choose(arguments, &predictions);
     let options = RenderOptions {
-        path: match arguments.path {
-            PathWord::Cast => VisibilityPath::Cast,
-            PathWord::Raster => VisibilityPath::Raster,
-        },
+        path,
+        preset,
         accuracy,
-        window: window(arguments, scene.camera.resolution())?,
+        window,
         planes,
         listing: arguments
             .visible
             .as_ref()
             .map(|_| arguments.subpixel.map_or(Listing::Centres, Listing::Subsamples)),
-        ..RenderOptions::default()
     };
-    let (frame, written, write_time) = on_threads(arguments.threads, || {
-        let frame = render(&scene, &options, &bar);
-        bar.finish();
-        let started = Instant::now();
-        let mut written = write_all(&frame, &targets, writing)?;
-        if let (Some(path), Some(list)) = (&arguments.visible, &frame.visible) {
-            let text = to_csv(&scene, list);
-            output::save(writing, path, text.as_bytes())?;
-            written.push(Written { path: path.clone(), bytes: text.len(), clipped: None });
-        }
-        Ok::<_, Failure>((frame, written, started.elapsed()))
-    })??;
+    let frame = scene.camera.resolution();
+    let mut outputs = Outputs::new(&targets, frame, options.window.unwrap_or(frame.window()));
+    let account = render_bands(&scene, &options, &bar, |band| outputs.append(&band))?;
+    bar.finish();
+    let (writing_began, encoding) = (Instant::now(), outputs.encoding);
+    let mut written = outputs.write(writing)?;
+    if let (Some(path), Some(list)) = (&arguments.visible, &account.visible) {
+        let text = to_csv(&scene, list);
+        output::save(writing, path, text.as_bytes())?;
+        written.push(Written { path: path.clone(), bytes: text.len(), clipped: None });
+    }
+    let write_time = writing_began.elapsed().saturating_sub(outputs.encoding - encoding);
     let total = started.elapsed();
+    let report = Report {
+        arguments,
+        options: &options,
+        predictions: &predictions,
+        scene: &scene,
+        account: &account,
+        outputs: &outputs,
+        written: &written,
+    };
     if arguments.json {
         let times = [("load", load_time), ("write", write_time), ("total", total)];
-        output::print_json(&report::document(
-            arguments, &options, &scene, &frame, &written, &times,
-        ));
+        output::print_json(&report.document(&times));
     } else if !arguments.quiet {
-        output::print(&report::summary(arguments.subpixel, &scene, &frame, &written, total));
+        output::print(&report.summary(total));
     }
     Ok(OK)
 }
@@ -100,6 +115,21 @@ fn load(arguments: &RenderArguments) -> Result<Scene, Failure> {
     })
 }
 
+/// The path that is asked for, or the quickest, and how its tree is built.
+fn choose(
+    arguments: &RenderArguments,
+    predictions: &[Prediction],
+) -> (VisibilityPath, BuildPreset) {
+    let asked = arguments.path.map(|word| match word {
+        PathWord::Cast => VisibilityPath::Cast,
+        PathWord::Raster => VisibilityPath::Raster,
+    });
+    let mut ways = predictions.iter();
+    let quickest = ways.find(|way| asked.is_none_or(|path| way.path == path));
+    let path = quickest.map_or(VisibilityPath::default(), |way| way.path);
+    (path, quickest.and_then(|way| way.preset).unwrap_or_default())
+}
+
 /// How visibility is decided; refuses what the path does not have.
 fn accuracy(arguments: &RenderArguments) -> Result<Accuracy, Failure> {
     if arguments.accuracy == AccuracyWord::Exact {
@@ -112,7 +142,7 @@ fn accuracy(arguments: &RenderArguments) -> Result<Accuracy, Failure> {
             (None, None) => Ok(Accuracy::Exact),
         };
     }
-    if arguments.path == PathWord::Cast {
+    if arguments.path != Some(PathWord::Raster) {
         let message = "--accuracy watertight exists on --path raster, not on --path cast";
         return Err(Failure::usage(message.to_owned()));
     }
@@ -202,32 +232,5 @@ fn window(arguments: &RenderArguments, frame: Resolution) -> Result<Option<Windo
             frame.width(),
             frame.height()
         ))
-    })
-}
-
-fn write_all(
-    frame: &Frame,
-    targets: &[(PathBuf, Format)],
-    writing: &Writing,
-) -> Result<Vec<Written>, Failure> {
-    targets
-        .iter()
-        .map(|(path, format)| {
-            let (bytes, clipped) = encode(&frame.film, *format)?;
-            output::save(writing, path, &bytes)?;
-            Ok(Written { path: path.clone(), bytes: bytes.len(), clipped })
-        })
-        .collect()
-}
-
-/// The film in a format; for PNG also how much was clipped.
-fn encode(film: &Film, format: Format) -> Result<(Vec<u8>, Option<ClipCount>), FilmError> {
-    Ok(match format {
-        Format::Exr => (encode_exr(film)?, None),
-        Format::Npy => (encode_npy_ids(film)?, None),
-        Format::Png => {
-            let (bytes, clipped) = encode_png(film)?;
-            (bytes, Some(clipped))
-        }
     })
 }

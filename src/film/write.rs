@@ -8,6 +8,7 @@
 //! flushed to the disk's platters, so a power cut is not covered.
 
 use std::ffi::OsStr;
+use std::fs::File;
 use std::io::{Error, ErrorKind, Write as _};
 use std::path::{Path, PathBuf};
 
@@ -76,9 +77,21 @@ pub fn load_exr(path: &Path) -> Result<Film, FilmError> {
 /// [`FilmError::Write`] when the target is a folder or a device, or its folder is missing, not a
 /// folder, not writable or full. No partial file is left, and an old file is untouched.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), FilmError> {
+    write_atomic_with(path, |file| file.write_all(bytes))
+}
+
+/// [`write_atomic`] for what is better written piece by piece.
+///
+/// # Errors
+///
+/// As [`write_atomic`], and what `write` gives.
+pub fn write_atomic_with(
+    path: &Path,
+    write: impl FnOnce(&mut File) -> std::io::Result<()>,
+) -> Result<(), FilmError> {
     let target = resolve_target(path)?;
     let mut file = create_beside(path, &target)?;
-    file.write_all(bytes).map_err(|error| unwritable(path, &target, &error))?;
+    write(file.as_file_mut()).map_err(|error| unwritable(path, &target, &error))?;
     file.persist(&target).map_err(|refused| unwritable(path, &target, &refused.error))?;
     Ok(())
 }

@@ -116,5 +116,7 @@ impl Answerer {
 
 /// Whether any nearest surface is see-through.
 fn has_see_through(scene: &Scene, nearest: &VisibilityBuffer) -> bool {
-    nearest.visible.iter().flatten().any(|visible| !scene.is_opaque(visible.triangle))
+    // Most scenes have no such material, and the buffer is large.
+    scene.materials.iter().any(|material| material.opacity != 1.0)
+        && nearest.visible.iter().flatten().any(|visible| !scene.is_opaque(visible.triangle))
 }

@@ -3,16 +3,18 @@
 //! Where nothing is visible at a pixel's centre, ids are 0xFFFF_FFFF and every plane but colour
 //! is 0 (no surface lies at depth 0), except `stable`, which speaks of nothing as of a triangle, and
 //! `invalid`, which speaks of the background's colour too. Values are rounded to f32 once, here.
+//! All planes of a row are filled at once, while what is visible there is at hand.
 
-use super::surface_planes::SurfacePlanes;
+use super::plane_rows::{PlaneRow, cut_rows, empty_planes};
+use super::surface_planes::SurfaceRow;
 use super::{Accuracy, PlaneGroup, PlaneGroups, describe};
 use crate::color::LinearRgb;
 use crate::film::{Film, Plane, Samples};
-use crate::pixel::for_each_row;
 use crate::raster::{STANDARD_HALF_WIDTH, stability};
 use crate::scene::Scene;
 use crate::shade::{Effects, doubt, doubts};
 use crate::visibility::{VisibilityBuffer, Visible};
+use rayon::prelude::*;
 
 /// "Nothing is visible" in id planes.
 const NOTHING: u32 = u32::MAX;
@@ -28,112 +30,154 @@ pub fn develop(
     groups: &PlaneGroups,
     accuracy: Accuracy,
 ) -> Film {
-    let mut planes = Vec::new();
-    let mut surfaces = SurfacePlanes::new(scene, buffer, groups);
-    for group in groups.iter() {
-        let is_absent = group == PlaneGroup::TextureCoordinates
-            && scene.mesh.uvs.is_empty()
-            && groups.iter().count() > 1;
-        if !is_absent {
-            let samples = fill(scene, buffer, (radiance, alpha), &mut surfaces, group);
-            for (name, samples) in group.planes().iter().zip(samples) {
-                planes.push(Plane { name: (*name).to_owned(), samples });
+    let description = describe(scene, accuracy).to_string();
+    develop_described(scene, buffer, radiance, alpha, groups, description)
+}
+
+/// [`develop`] with a description at hand, which takes a look at the whole scene.
+pub(super) fn develop_described(
+    scene: &Scene,
+    buffer: &VisibilityBuffer,
+    radiance: &[LinearRgb],
+    alpha: &[f64],
+    groups: &PlaneGroups,
+    description: String,
+) -> Film {
+    let is_asked = |group: &PlaneGroup| {
+        *group != PlaneGroup::TextureCoordinates
+            || !scene.mesh.uvs.is_empty()
+            || groups.iter().count() == 1
+    };
+    let asked: Vec<PlaneGroup> = groups.iter().filter(is_asked).collect();
+    let size = buffer.window.len();
+    let mut samples: Vec<Vec<Samples>> =
+        asked.iter().map(|&group| empty_planes(group, size)).collect();
+    let width = buffer.window.width() as usize;
+    cut_rows(&asked, &mut samples, width).into_par_iter().enumerate().for_each(|(row, planes)| {
+        let range = row * width..(row + 1) * width;
+        let seen = Row {
+            scene,
+            y: buffer.window.y0() + row as u32,
+            x0: buffer.window.x0(),
+            visible: &buffer.visible[range.clone()],
+            radiance: &radiance[range.clone()],
+            alpha: &alpha[range.clone()],
+            crossed: buffer.cover.as_ref().map(|cover| &cover[range]),
+        };
+        seen.fill(planes);
+    });
+    for (group, samples) in asked.iter().zip(&mut samples) {
+        match group {
+            PlaneGroup::Stable => {
+                let stable = stability(scene, buffer, STANDARD_HALF_WIDTH, &|| ());
+                *samples = vec![Samples::Uint(stable.into_iter().map(u32::from).collect())];
             }
+            PlaneGroup::Invalid => *samples = vec![invalid(scene, buffer, radiance)],
+            _ => {}
         }
     }
+    let named = asked.iter().zip(samples).flat_map(|(group, samples)| {
+        let named = group.planes().iter().zip(samples);
+        named.map(|(name, samples)| Plane { name: (*name).to_owned(), samples })
+    });
     Film {
         resolution: scene.camera.resolution(),
         window: buffer.window,
-        planes,
-        description: describe(scene, accuracy).to_string(),
+        planes: named.collect(),
+        description,
     }
 }
 
-/// The planes of one group, in the order of [`PlaneGroup::planes`].
-fn fill(
-    scene: &Scene,
-    buffer: &VisibilityBuffer,
-    (radiance, alpha): (&[LinearRgb], &[f64]),
-    surfaces: &mut SurfacePlanes,
-    group: PlaneGroup,
-) -> Vec<Samples> {
-    match group {
-        PlaneGroup::Color => {
-            let channel =
-                |k: usize| Samples::Float(radiance.iter().map(|rgb| rgb[k] as f32).collect());
-            let alpha = Samples::Float(alpha.iter().map(|&share| share as f32).collect());
-            vec![channel(0), channel(1), channel(2), alpha]
+/// What the file holds decides about its range, not the centre's sample in f64.
+fn invalid(scene: &Scene, buffer: &VisibilityBuffer, radiance: &[LinearRgb]) -> Samples {
+    let mut bits = doubts(scene, buffer, Effects::of(scene));
+    for (bits, rgb) in bits.iter_mut().zip(radiance) {
+        *bits &= !doubt::BEYOND_RANGE;
+        if rgb.iter().any(|&value| !(value as f32).is_finite()) {
+            *bits |= doubt::BEYOND_RANGE;
         }
-        PlaneGroup::Depth => floats(buffer, |visible| [visible.t() * scene.camera.z_per_t()]),
-        PlaneGroup::RayParameter => floats(buffer, |visible| [visible.t()]),
-        PlaneGroup::Position
-        | PlaneGroup::FaceNormal
-        | PlaneGroup::ShadingNormal
-        | PlaneGroup::TextureCoordinates => surfaces.take(group),
-        PlaneGroup::Barycentric => {
-            floats(buffer, |visible| [visible.barycentric.0[1], visible.barycentric.0[2]])
+    }
+    Samples::Uint(bits)
+}
+
+/// What is known of a row of pixels.
+struct Row<'a> {
+    scene: &'a Scene,
+    y: u32,
+    x0: u32,
+    visible: &'a [Option<Visible>],
+    radiance: &'a [LinearRgb],
+    alpha: &'a [f64],
+    crossed: Option<&'a [crate::visibility::Cover]>,
+}
+
+impl Row<'_> {
+    /// Fills the row in all planes but those that take a pass of their own.
+    fn fill(&self, planes: Vec<(PlaneGroup, PlaneRow<'_>)>) {
+        let scene = self.scene;
+        let mut surfaces = SurfaceRow::default();
+        for (group, mut plane) in planes {
+            match group {
+                PlaneGroup::Color => {
+                    let pixels = self.radiance.iter().zip(self.alpha);
+                    plane.floats(pixels.map(|(&[r, g, b], &alpha)| [r, g, b, alpha]));
+                }
+                PlaneGroup::Depth => {
+                    self.floats(&mut plane, |visible| [visible.t() * scene.camera.z_per_t()]);
+                }
+                PlaneGroup::RayParameter => self.floats(&mut plane, |visible| [visible.t()]),
+                PlaneGroup::Position
+                | PlaneGroup::FaceNormal
+                | PlaneGroup::ShadingNormal
+                | PlaneGroup::TextureCoordinates => {
+                    surfaces.set_up(scene, (self.x0, self.y), self.visible);
+                    surfaces.lay_out(group, &mut plane);
+                }
+                PlaneGroup::Barycentric => self.floats(&mut plane, |visible| {
+                    [visible.barycentric.0[1], visible.barycentric.0[2]]
+                }),
+                PlaneGroup::Identity => self.identify(&mut plane),
+                PlaneGroup::Facing => {
+                    self.floats(&mut plane, |visible| [f64::from(visible.facing.sign())]);
+                }
+                PlaneGroup::Cover => {
+                    let crossed = self.crossed.unwrap_or_default().iter();
+                    plane.uints(crossed.map(|cover| [cover.crossed]));
+                }
+                PlaneGroup::Verdict => plane.uints(self.visible.iter().map(|visible| {
+                    let verdict = |v: &Visible| [v.level as u32, u32::from(v.tie)];
+                    visible.as_ref().map_or([0; 2], verdict)
+                })),
+                PlaneGroup::Stable | PlaneGroup::Invalid => {}
+            }
         }
-        PlaneGroup::Identity => uints(buffer, NOTHING, |visible| {
-            let id = visible.triangle;
-            [id.get(), scene.object_of(id).0 as u32, scene.material_of(id).0 as u32]
-        }),
-        PlaneGroup::Facing => floats(buffer, |visible| [f64::from(visible.facing.sign())]),
-        PlaneGroup::Cover => {
-            let crossed = buffer.cover.iter().flatten().map(|cover| cover.crossed);
-            vec![Samples::Uint(crossed.collect())]
-        }
-        PlaneGroup::Verdict => {
-            uints(buffer, 0, |visible| [visible.level as u32, u32::from(visible.tie)])
-        }
-        PlaneGroup::Stable => {
-            let stable = stability(scene, buffer, STANDARD_HALF_WIDTH, &|| ());
-            vec![Samples::Uint(stable.into_iter().map(u32::from).collect())]
-        }
-        PlaneGroup::Invalid => {
-            // What the file holds decides about its range, not the centre's sample in f64.
-            let mut bits = doubts(scene, buffer, Effects::of(scene));
-            for (bits, rgb) in bits.iter_mut().zip(radiance) {
-                *bits &= !doubt::BEYOND_RANGE;
-                if rgb.iter().any(|&value| !(value as f32).is_finite()) {
-                    *bits |= doubt::BEYOND_RANGE;
+    }
+
+    /// Floats of what is visible; 0 where nothing is.
+    fn floats<const N: usize>(
+        &self,
+        plane: &mut PlaneRow<'_>,
+        value: impl Fn(&Visible) -> [f64; N],
+    ) {
+        plane.floats(self.visible.iter().map(|visible| visible.as_ref().map_or([0.0; N], &value)));
+    }
+
+    /// Ids of triangle, mesh and material. Neighbours mostly see the same triangle.
+    fn identify(&self, plane: &mut PlaneRow<'_>) {
+        let mut last = None;
+        plane.uints(self.visible.iter().map(|visible| {
+            let Some(id) = visible.as_ref().map(|visible| visible.triangle) else {
+                return [NOTHING; 3];
+            };
+            match last {
+                Some((triangle, ids)) if triangle == id => ids,
+                _ => {
+                    let object = self.scene.object_of(id).0 as u32;
+                    let ids = [id.get(), object, self.scene.material_of(id).0 as u32];
+                    last = Some((id, ids));
+                    ids
                 }
             }
-            vec![Samples::Uint(bits)]
-        }
+        }));
     }
-}
-
-/// `N` float planes; 0 where nothing is visible.
-fn floats<const N: usize>(
-    buffer: &VisibilityBuffer,
-    value: impl Fn(&Visible) -> [f64; N] + Sync,
-) -> Vec<Samples> {
-    let width = buffer.window.width() as usize;
-    let mut pixels = vec![[0.0_f32; N]; buffer.window.len()];
-    for_each_row(&mut pixels, width, &|| (), |row, pixels| {
-        for (column, pixel) in pixels.iter_mut().enumerate() {
-            if let Some(visible) = &buffer.visible[row * width + column] {
-                *pixel = value(visible).map(|v| v as f32);
-            }
-        }
-    });
-    (0..N).map(|k| Samples::Float(pixels.iter().map(|pixel| pixel[k]).collect())).collect()
-}
-
-/// `N` integer planes; `nothing` where nothing is visible.
-fn uints<const N: usize>(
-    buffer: &VisibilityBuffer,
-    nothing: u32,
-    value: impl Fn(&Visible) -> [u32; N] + Sync,
-) -> Vec<Samples> {
-    let width = buffer.window.width() as usize;
-    let mut pixels = vec![[nothing; N]; buffer.window.len()];
-    for_each_row(&mut pixels, width, &|| (), |row, pixels| {
-        for (column, pixel) in pixels.iter_mut().enumerate() {
-            if let Some(visible) = &buffer.visible[row * width + column] {
-                *pixel = value(visible);
-            }
-        }
-    });
-    (0..N).map(|k| Samples::Uint(pixels.iter().map(|pixel| pixel[k]).collect())).collect()
 }

@@ -40,18 +40,49 @@ pub fn expose(
     effects: Effects,
     progress: &dyn Progress,
 ) -> Exposure {
-    // Shadows need a BVH, whichever path found what is visible.
-    let built;
-    let occluders = match answerer {
-        Answerer::Cast(accelerator) => Some(accelerator),
-        Answerer::Raster if effects.has(Effects::SHADOWS) => {
-            progress.begin("build", 1);
-            built = Accelerator::build(&scene.mesh, BuildPreset::Medium);
-            progress.step();
-            Some(&built)
+    let built = occluders(scene, answerer, effects, BuildPreset::Medium, progress);
+    expose_with(scene, answerer, built.of(answerer), (nearest, layers), effects, progress)
+}
+
+/// A tree for shadows, where the path that answers has none.
+pub(super) struct Occluders(Option<Accelerator>);
+
+impl Occluders {
+    /// The tree that shadow rays go through: the path's own, or this.
+    pub(super) fn of<'a>(&'a self, answerer: &'a Answerer) -> Option<&'a Accelerator> {
+        match answerer {
+            Answerer::Cast(accelerator) => Some(accelerator),
+            Answerer::Raster | Answerer::Watertight(..) => self.0.as_ref(),
         }
-        Answerer::Raster | Answerer::Watertight(..) => None,
-    };
+    }
+}
+
+/// Shadows need a BVH, whichever path found what is visible.
+pub(super) fn occluders(
+    scene: &Scene,
+    answerer: &Answerer,
+    effects: Effects,
+    preset: BuildPreset,
+    progress: &dyn Progress,
+) -> Occluders {
+    let is_needed = matches!(answerer, Answerer::Raster) && effects.has(Effects::SHADOWS);
+    Occluders(is_needed.then(|| {
+        progress.begin("build", 1);
+        let built = Accelerator::build(&scene.mesh, preset);
+        progress.step();
+        built
+    }))
+}
+
+/// [`expose`] with a tree for shadows at hand, if there are any.
+pub(super) fn expose_with(
+    scene: &Scene,
+    answerer: &Answerer,
+    occluders: Option<&Accelerator>,
+    (nearest, layers): (&VisibilityBuffer, &Layers),
+    effects: Effects,
+    progress: &dyn Progress,
+) -> Exposure {
     if !effects.has(Effects::SUPERSAMPLING) {
         progress.begin("shade", nearest.window.height() as usize);
         return expose_sample(scene, occluders, (nearest, layers), effects, &|| progress.step());

@@ -16,7 +16,7 @@ const MAX_WARNING_KINDS: usize = 32;
 const MAX_QUOTED_CHARACTERS: usize = 40;
 
 /// Errors and warnings in the order of their first occurrence.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Report {
     errors: Vec<SceneError>,
     suppressed_errors: u64,
@@ -25,7 +25,7 @@ pub(super) struct Report {
 }
 
 /// One kind of remark: where it first applied and how often it does.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 struct Warning {
     sentence: String,
     file: PathBuf,

@@ -1,7 +1,11 @@
 //! Our own strict reading of an OBJ text: what each statement is, where it is, and whether every
-//! index exists. Numbers are checked here and read by tobj, which gets only text that passed.
+//! index exists. Makes no triangles and reads no material library.
 //!
-//! Makes no triangles and reads no material library.
+//! Files are long and plain: `plain` reads stretches of the text on all threads, and only what it
+//! leaves is read here, statement by statement. Numbers are what `f64::from_str` reads, which is
+//! correctly rounded.
+
+mod plain;
 
 use crate::mesh::NO_ATTRIBUTE;
 use crate::scene::error::{Place, SceneError};
@@ -10,12 +14,27 @@ use crate::scene::obj::corner::{self, Kind};
 use crate::scene::obj::report::{Report, quote};
 use crate::scene::obj::scanned::{Corner, Face, Name, Scan};
 use crate::scene::obj::statement::{Statements, Token};
+use plain::{Before, Stretch};
+use rayon::prelude::*;
 use std::collections::{HashMap, HashSet};
+use std::ops::Range;
 use std::path::Path;
+
+/// Bytes of a stretch of text, at least: a millisecond's work.
+const STRETCH: usize = 1 << 18;
 
 /// Reads all statements. Faults go to the report; with any, the result is incomplete.
 /// With `skip_bad`, faces with a position that is not finite are no fault and left out.
 pub(super) fn scan(text: &str, file: &Path, skip_bad: bool, report: &mut Report) -> Scan {
+    let before = report.clone();
+    scan_stretches(text, file, skip_bad, report, STRETCH).unwrap_or_else(|| {
+        *report = before;
+        scan_strictly(text, file, skip_bad, report)
+    })
+}
+
+/// Reads statement by statement.
+fn scan_strictly(text: &str, file: &Path, skip_bad: bool, report: &mut Report) -> Scan {
     let mut state = State::new(skip_bad);
     let mut walk = Statements::new(text, file);
     while walk.advance() {
@@ -24,6 +43,66 @@ pub(super) fn scan(text: &str, file: &Path, skip_bad: bool, report: &mut Report)
         }
     }
     state.finish(&walk, file, report)
+}
+
+/// Reads stretches of about `size` bytes in parallel and joins them in the order of the file. `None`
+/// where statements do not end with their stretch, or plain faces use what does not exist, which
+/// must be told with its place.
+fn scan_stretches(
+    text: &str,
+    file: &Path,
+    skip_bad: bool,
+    report: &mut Report,
+    size: usize,
+) -> Option<Scan> {
+    let ranges = cut(text.as_bytes(), size);
+    let stretches: Vec<Stretch> =
+        ranges.into_par_iter().map(|range| plain::read(text, file, range)).collect();
+    if stretches.iter().any(|stretch| stretch.is_torn) {
+        return None;
+    }
+    let mut state = State::new(skip_bad);
+    let mut line = 1;
+    for stretch in &stretches {
+        let mut from = Before::default();
+        for other in &stretch.others {
+            state.append(stretch, from, other.before, line);
+            from = other.before;
+            let mut walk = Statements::resume(text, file, other.position, line + other.line);
+            walk.advance();
+            if let Err(error) = state.read(&walk, file, report) {
+                report.error(error);
+            }
+        }
+        state.append(stretch, from, stretch.size(), line);
+        line += stretch.lines;
+    }
+    for (kind, &count) in state.scan.counts.iter().enumerate() {
+        if stretches.iter().any(|stretch| stretch.reach[kind] > count) {
+            return None;
+        }
+    }
+    Some(state.finish(&Statements::new(text, file), file, report))
+}
+
+/// Cuts a text behind line ends, into ranges of at least `size` bytes but the last; never behind a
+/// line that goes on.
+fn cut(bytes: &[u8], size: usize) -> Vec<Range<usize>> {
+    let mut ranges = Vec::new();
+    let mut start = 0;
+    let mut from = size;
+    while let Some(offset) = bytes.get(from..).and_then(|r| r.iter().position(|&b| b == b'\n')) {
+        let end = from + offset + 1;
+        let line = bytes[start..end].trim_ascii_end();
+        if line.ends_with(b"\\") {
+            from = end;
+        } else {
+            ranges.push(start..end);
+            (start, from) = (end, end + size);
+        }
+    }
+    ranges.push(start..bytes.len());
+    ranges
 }
 
 /// Words of the OBJ specification that make no surface of triangles.
@@ -81,6 +160,35 @@ impl<'a> State<'a> {
             skip_bad,
             bad_positions: HashSet::new(),
         }
+    }
+
+    /// Appends plain statements of a stretch that begins at a line.
+    fn append(&mut self, stretch: &Stretch, from: Before, to: Before, line: u32) {
+        let scan = &mut self.scan;
+        scan.positions.extend_from_slice(&stretch.positions[from.positions..to.positions]);
+        scan.uvs.extend_from_slice(&stretch.uvs[from.uvs..to.uvs]);
+        scan.normals.extend_from_slice(&stretch.normals[from.normals..to.normals]);
+        let added = [
+            (Kind::Position, to.positions - from.positions),
+            (Kind::Uv, to.uvs - from.uvs),
+            (Kind::Normal, to.normals - from.normals),
+        ];
+        for (kind, added) in added {
+            let count = &mut scan.counts[kind as usize];
+            *count = count.saturating_add(u32::try_from(added).unwrap_or(u32::MAX));
+        }
+        let faces = &stretch.faces[from.faces..to.faces];
+        let Some(last) = faces.last() else { return };
+        self.use_material();
+        let first = from.faces.checked_sub(1).map_or(0, |face| stretch.faces[face].corners_end);
+        let (group, material, before) = (self.group, self.material, self.scan.corners.len());
+        self.scan.corners.extend_from_slice(&stretch.corners[first..last.corners_end]);
+        self.scan.faces.extend(faces.iter().map(|face| Face {
+            line: line + face.line,
+            corners_end: before + face.corners_end - first,
+            group,
+            material,
+        }));
     }
 
     fn read(
@@ -197,22 +305,23 @@ impl<'a> State<'a> {
         let is_skipped = self.skip_bad
             && kind == Kind::Position
             && values[..width].iter().any(|token| is_infinite_or_nan(token.text));
+        let mut numbers = [0.0; 3];
         if is_skipped {
             // It keeps its number, and the faces that use it go in the end.
             self.bad_positions.insert(self.scan.counts[kind as usize] - 1);
-            self.scan.attributes.push_str("v 0 0 0\n");
-            return Ok(());
+        } else {
+            for (position, token) in values.iter().enumerate() {
+                let number = walk.number(token)?;
+                if position < width {
+                    numbers[position] = number;
+                }
+            }
         }
-        for token in values {
-            walk.number(token)?;
+        match kind {
+            Kind::Position => self.scan.positions.push(numbers),
+            Kind::Uv => self.scan.uvs.push([numbers[0], numbers[1]]),
+            Kind::Normal => self.scan.normals.push(numbers),
         }
-        let attributes = &mut self.scan.attributes;
-        attributes.push_str(keyword.text);
-        for position in 0..width {
-            attributes.push(' ');
-            attributes.push_str(values.get(position).map_or("0", |token| token.text));
-        }
-        attributes.push('\n');
         Ok(())
     }
 
@@ -346,3 +455,6 @@ impl<'a> State<'a> {
 fn is_infinite_or_nan(text: &str) -> bool {
     text.parse::<f64>().is_ok_and(|number| !number.is_finite())
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,14 +1,16 @@
 //! What an OBJ text says, as the scan finds it and every later stage reads it.
-//!
-//! Numbers are still text here; `indexing` has them read.
 
 use crate::color::LinearRgb;
 
 /// What the text says, with file indices resolved to 0-based ones.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Scan {
-    /// The `v`, `vt` and `vn` statements in their plainest form, in file order.
-    pub(super) attributes: String,
+    /// The numbers of each `v`.
+    pub(super) positions: Vec<[f64; 3]>,
+    /// Of each `vt`; 0 for a second number that is not there.
+    pub(super) uvs: Vec<[f64; 2]>,
+    /// Of each `vn`.
+    pub(super) normals: Vec<[f64; 3]>,
     /// Colour of each `v`, white where it has none; empty when none has.
     pub(super) colors: Vec<LinearRgb>,
     /// How many `v`, `vt` and `vn` there are.
@@ -44,16 +46,4 @@ pub(super) struct Face {
 pub(super) struct Name {
     pub(super) text: String,
     pub(super) line: u32,
-}
-
-impl Scan {
-    /// Each face with its corners.
-    pub(super) fn faces_with_corners(&self) -> impl Iterator<Item = (&Face, &[Corner])> {
-        let mut start = 0;
-        self.faces.iter().map(move |face| {
-            let corners = &self.corners[start..face.corners_end];
-            start = face.corners_end;
-            (face, corners)
-        })
-    }
 }

@@ -23,7 +23,9 @@ pub(super) fn decode<'a>(
         return Err(error.with_help("save it as UTF-8"));
     }
     let bytes = bytes.strip_prefix(&[0xEF, 0xBB, 0xBF]).unwrap_or(bytes);
-    if let Some(position) = bytes.iter().position(|&byte| byte == 0) {
+    if bytes.contains(&0)
+        && let Some(position) = bytes.iter().position(|&byte| byte == 0)
+    {
         let place = Place::at(file, line_of(bytes, position), 0);
         let error = SceneError::scene(place, "a NUL byte: this is not a text file");
         return Err(error.with_help("if it is UTF-16 text, save it as UTF-8"));
@@ -74,6 +76,21 @@ impl<'a> Statements<'a> {
     /// Starts before the first statement.
     pub(super) fn new(text: &'a str, file: &'a Path) -> Self {
         Self { text, file, position: 0, line: 1, tokens: Vec::new(), end: 0 }
+    }
+
+    /// Starts at a byte position, the start of a line, whose number is given.
+    pub(super) fn resume(text: &'a str, file: &'a Path, position: usize, line: u32) -> Self {
+        Self { position, line, ..Self::new(text, file) }
+    }
+
+    /// Byte position behind the current statement and its line's end.
+    pub(super) fn position(&self) -> usize {
+        self.position
+    }
+
+    /// Number of the line that begins there.
+    pub(super) fn line(&self) -> u32 {
+        self.line
     }
 
     /// Moves to the next statement; false at the end of the text.

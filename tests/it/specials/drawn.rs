@@ -195,7 +195,7 @@ fn assert_consistent(scene: &Scene, is_simple: bool, name: &str) {
             render(scene, &RenderOptions { path, planes, ..Default::default() }, &Unwatched);
         let Some(Samples::Uint(bits)) = frame.film.plane("invalid") else { panic!("{name}") };
         let pixels = |bit: u32| bits.iter().filter(|bits| **bits & bit != 0).count();
-        let notes = frame.notes;
+        let notes = frame.account.notes;
         assert_eq!(pixels(doubt::BEYOND_RANGE), frame.film.infinite_pixels(), "{name}");
         if !is_simple {
             continue;

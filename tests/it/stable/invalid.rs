@@ -15,7 +15,7 @@ fn plane(scene: &Scene) -> Vec<u32> {
     let Some(Samples::Uint(bits)) = read.plane("invalid") else { panic!("no plane of integers") };
     // The plane and the counts tell of the same cases.
     let any = |bit: u32| bits.iter().any(|bits| bits & bit != 0);
-    let notes = frame.notes;
+    let notes = frame.account.notes;
     for (bit, count) in [
         (doubt::LIGHT_AT_SURFACE, notes.lights_at_surface),
         (doubt::NEAR_TERMINATOR, notes.near_terminator),
