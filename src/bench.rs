@@ -1,13 +1,14 @@
 //! The benchmark: what building, casting, rasterizing, shading and a whole frame cost on a scene,
 //! and no time for a kernel whose answers are wrong.
 //!
-//! `workload` lists the variants, `peers` those of other programs, `reference` says what is right,
+//! `workload` says what a variant is, `kernels` lists ours and `peers` those of other programs, `reference` says what is right,
 //! `rounds` lets the variants take turns, [`crate::statistics`] condenses their times, `rivalry`
 //! puts ours beside the others', `baseline` holds them against an earlier report.
 //! Nothing here decides what is visible. Times are wall-clock times of this process on this machine;
 //! no mean over scenes is given, for it would weigh them by their size.
 
 pub mod baseline;
+pub mod kernels;
 pub mod machine;
 pub mod peers;
 pub mod reference;
@@ -24,12 +25,13 @@ use crate::scene::hash::content_hash;
 use crate::simd::SimdLevel;
 use crate::visibility::Counting;
 use baseline::Compared;
+use kernels::{Kernels, TreeFigures, light_of};
 use machine::Machine;
 use peers::{PeerError, PeerOptions, Peers};
 use reference::Reference;
 use rounds::{Row, take_turns};
 use std::path::PathBuf;
-use workload::{Kernels, TreeFigures, Work, light_of};
+use workload::Work;
 
 /// How a scene is measured.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -169,7 +171,7 @@ pub fn bench(
         }
         false => Peers::default(),
     };
-    let kernels = Kernels::new(scene, &options.presets, progress);
+    let kernels = Kernels::new(scene, &options.presets, subject.simd, progress);
     let counting = if wants(Work::Cover) { Counting::All } else { Counting::Nearest };
     let both = [kernels.standard_cast(), &Answerer::Raster]
         .map(|answerer| answerer.see(scene, window, counting, progress));

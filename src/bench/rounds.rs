@@ -62,7 +62,7 @@ pub fn take_turns(
                 times: None,
                 levels: match &answer {
                     Answer::Visibility(buffer) => Some(buffer.levels),
-                    Answer::Nearest { levels, .. } => Some(*levels),
+                    Answer::Nearest(buffer) => Some(buffer.borrow().levels),
                     _ => None,
                 },
             }
@@ -91,8 +91,9 @@ pub fn take_turns(
 fn wrong_pixels(answer: &Answer, reference: &Reference) -> Option<usize> {
     match answer {
         Answer::Visibility(buffer) => Some(reference.wrong_pixels(buffer)),
-        Answer::Nearest { window, ids, .. } => {
-            Some(reference.wrong_ids(*window, ids.iter().copied()))
+        Answer::Nearest(buffer) => {
+            let buffer = buffer.borrow();
+            Some(reference.wrong_ids(buffer.window, buffer.ids.iter().copied()))
         }
         Answer::Film(film) => Some(reference.wrong_pixels_of_film(film)),
         Answer::Hits(hits) => Some(reference.wrong_ids(hits.window, hits.ids())),

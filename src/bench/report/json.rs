@@ -1,9 +1,9 @@
 //! A report as one JSON document with stable keys, which a later one can be compared with.
 
 use crate::bench::baseline::Compared;
+use crate::bench::kernels::TreeFigures;
 use crate::bench::rivalry::{Rivalry, rivalries};
 use crate::bench::rounds::Row;
-use crate::bench::workload::TreeFigures;
 use crate::bench::{Measured, Report};
 use serde_json::{Value, json};
 

@@ -1,5 +1,6 @@
 //! `truecast bench` as typed.
 
+use crate::cli::obj_scene::{FIELD_OF_VIEW_DEG, View};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use truecast::accel::BuildPreset;
@@ -18,9 +19,21 @@ beside its own. Exit status: 0 ok; 1 a wrong answer, or slower than the baseline
 writing failed; 130 interrupted."
 )]
 pub(in crate::cli) struct BenchArguments {
-    /// Scene files (TOML); without any the built-in default scene, a teapot under spotlights
-    #[arg(value_name = "SCENE")]
+    /// Scene files (TOML), or mesh files (.obj), which are seen as a whole at 1920x1080; without any the
+    /// built-in default scene, a teapot under spotlights
+    #[arg(value_name = "SCENE|MESH.obj")]
     pub(in crate::cli) scenes: Vec<PathBuf>,
+    /// Where mesh files are seen from
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse_point, allow_hyphen_values = true,
+          requires = "target")]
+    pub(in crate::cli) eye: Option<[f64; 3]>,
+    /// The point of mesh files in the middle of the frame
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse_point, allow_hyphen_values = true,
+          requires = "eye")]
+    pub(in crate::cli) target: Option<[f64; 3]>,
+    /// Full vertical angle of view of mesh files, in degrees
+    #[arg(long, value_name = "DEG", default_value_t = FIELD_OF_VIEW_DEG)]
+    pub(in crate::cli) fov: f64,
     /// Also write the report to this file, .json, .csv or .svg by extension; may be repeated
     #[arg(short, long = "output", value_name = "FILE")]
     pub(in crate::cli) output: Vec<PathBuf>,
@@ -63,6 +76,12 @@ pub(in crate::cli) struct BenchArguments {
 }
 
 impl BenchArguments {
+    /// How mesh files are seen.
+    pub(in crate::cli) fn view(&self) -> View {
+        let eye_and_target = self.eye.zip(self.target).map(|(eye, target)| [eye, target]);
+        View { eye_and_target, fov_y_deg: self.fov }
+    }
+
     /// What they ask of each scene.
     pub(in crate::cli) fn options(&self) -> BenchOptions {
         let mut options = BenchOptions {
@@ -142,6 +161,15 @@ impl PresetWord {
             Self::VerySlow => BuildPreset::VerySlow,
         }
     }
+}
+
+fn parse_point(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Option<Vec<f64>> = text
+        .split(',')
+        .map(|number| number.trim().parse().ok().filter(|n: &f64| n.is_finite()))
+        .collect();
+    let point = numbers.and_then(|numbers| numbers.try_into().ok());
+    point.ok_or_else(|| "expected three finite numbers, such as 3,1.5,-2".to_owned())
 }
 
 fn parse_simd(text: &str) -> Result<SimdLevel, String> {
