@@ -11,13 +11,15 @@ mod node;
 mod preset;
 mod topology;
 mod traverse;
+mod wide;
 
 pub(crate) use entries::LeafTriangle;
 pub use preset::BuildPreset;
 pub(crate) use traverse::{Pending, Segment, Slabs};
+pub(crate) use wide::{GROUP, Leaf, Link, Linked, NO_TRIANGLE, WIDTH, WideNode, WideTree};
 
 use crate::mesh::{TriangleId, TriangleMesh};
-use node::{Child, Tree};
+use node::Tree;
 use std::collections::HashMap;
 
 /// Deepest tree that is kept as obvhs made it. Meshes and soups of 10⁵ triangles measure 24 to 40;
@@ -27,7 +29,7 @@ const DEEPEST: usize = 96;
 /// A hierarchy over the triangles of one mesh.
 #[derive(Clone, Debug)]
 pub struct Accelerator {
-    tree: Tree,
+    tree: WideTree,
     /// The other ids of each triangle that is kept for several, under the lowest.
     copies: HashMap<TriangleId, Vec<TriangleId>>,
 }
@@ -54,23 +56,18 @@ impl Accelerator {
                 if tree.depth > DEEPEST { node::lay_out_balanced(&entries) } else { tree }
             }
         };
-        Self { tree, copies: entries.copies }
+        Self { tree: wide::widen(&tree), copies: entries.copies }
     }
 
-    /// No hierarchy: one leaf with every triangle of the mesh, nothing left out or folded. The
+    /// No hierarchy: every triangle of the mesh in a line, nothing left out or folded. The
     /// reference that a hierarchy's answers are compared with.
     pub fn linear(mesh: &TriangleMesh) -> Self {
-        let triangles = entries::unordered(mesh);
-        let root = Child { first: 0, count: triangles.len() as u32 };
-        Self {
-            tree: Tree {
-                root: (root.count > 0).then_some(root),
-                depth: usize::from(root.count > 0),
-                nodes: Vec::new(),
-                triangles,
-            },
-            copies: HashMap::new(),
-        }
+        Self { tree: wide::line_up(entries::unordered(mesh)), copies: HashMap::new() }
+    }
+
+    /// The tree, for walks by tiles.
+    pub(crate) fn tree(&self) -> &WideTree {
+        &self.tree
     }
 
     /// The triangles that are bitwise equal to one of a leaf and kept with it: their ids are higher.
@@ -90,12 +87,12 @@ impl Accelerator {
 
     /// Memory of nodes and leaf triangles, in bytes.
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.tree.nodes[..]) + size_of_val(&self.tree.triangles[..])
+        self.tree.bytes()
     }
 
-    /// Expected number of tests, pairs of boxes and triangles, of a random line that meets the
-    /// root's box, by the surface area heuristic; `None` for a hierarchy of one leaf or none, and
-    /// for one in a line.
+    /// Expected number of tests, nodes of 16 boxes and groups of 8 triangles, of a random line that
+    /// meets the root's box, by the surface area heuristic; `None` for a hierarchy of one leaf or
+    /// none, and for one in a line.
     pub fn surface_area_cost(&self) -> Option<f64> {
         self.tree.surface_area_cost()
     }
@@ -107,7 +104,7 @@ impl Accelerator {
         pending: &mut Pending,
         visit: impl FnMut(&[LeafTriangle]) -> f64,
     ) {
-        self.tree.traverse(slabs, pending, visit);
+        self.tree.traverse(&self.copies, slabs, pending, visit);
     }
 
     /// Visits triangles until `found` says so, among them every one that the segment meets.
@@ -118,7 +115,7 @@ impl Accelerator {
         mut found: impl FnMut(&[LeafTriangle]) -> bool,
     ) {
         let ends = |is_found| if is_found { f64::NEG_INFINITY } else { f64::INFINITY };
-        self.tree.traverse(segment, pending, |triangles| ends(found(triangles)));
+        self.tree.traverse(&self.copies, segment, pending, |triangles| ends(found(triangles)));
     }
 }
 

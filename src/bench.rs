@@ -1,36 +1,51 @@
 //! The benchmark: what building, casting, rasterizing, shading and a whole frame cost on a scene,
 //! and no time for a kernel whose answers are wrong.
 //!
-//! `workload` lists the variants, `reference` says what is right, `rounds` lets the variants take
-//! turns, [`crate::statistics`] condenses their times, `baseline` holds them against an earlier report.
+//! `workload` lists the variants, `peers` those of other programs, `reference` says what is right,
+//! `rounds` lets the variants take turns, [`crate::statistics`] condenses their times, `rivalry`
+//! puts ours beside the others', `baseline` holds them against an earlier report.
 //! Nothing here decides what is visible. Times are wall-clock times of this process on this machine;
 //! no mean over scenes is given, for it would weigh them by their size.
 
 pub mod baseline;
 pub mod machine;
+pub mod peers;
 pub mod reference;
 pub mod report;
+pub mod rivalry;
 pub mod rounds;
 pub mod workload;
 
+use crate::accel::BuildPreset;
 use crate::pixel::Resolution;
 use crate::render::{Answerer, Progress};
 use crate::scene::Scene;
 use crate::scene::hash::content_hash;
+use crate::simd::SimdLevel;
 use crate::visibility::Counting;
 use baseline::Compared;
 use machine::Machine;
+use peers::{PeerError, PeerOptions, Peers};
 use reference::Reference;
 use rounds::{Row, take_turns};
-use workload::{Kernels, TreeFigures};
+use std::path::PathBuf;
+use workload::{Kernels, TreeFigures, Work, light_of};
 
 /// How a scene is measured.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BenchOptions {
     /// How often each variant is timed, at least once. A run that checks its answer comes before.
     pub rounds: usize,
     /// How many pixels exact arithmetic looks at, whether both paths agree there or not.
     pub audited_pixels: usize,
+    /// Which kinds of work.
+    pub works: Vec<Work>,
+    /// With which presets trees are built and cast at.
+    pub presets: Vec<BuildPreset>,
+    /// Whether Embree is held to the subject's instruction set; else it chooses for itself.
+    pub holds_simd: bool,
+    /// The shared library of Embree; without it, whichever version the system finds.
+    pub embree: Option<PathBuf>,
 }
 
 impl BenchOptions {
@@ -40,32 +55,44 @@ impl BenchOptions {
 
 impl Default for BenchOptions {
     fn default() -> Self {
-        Self { rounds: Self::STANDARD_ROUNDS, audited_pixels: 200 }
+        Self {
+            rounds: Self::STANDARD_ROUNDS,
+            audited_pixels: 200,
+            works: Work::ALL.into(),
+            presets: BuildPreset::ALL.into(),
+            holds_simd: false,
+            embree: None,
+        }
     }
 }
 
-/// Which scene was measured, at which size: what must be equal for times to be comparable.
+/// What was measured: all that must be equal for times to be comparable.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Subject {
-    /// Its file, or a name for it.
+    /// The scene's file, or a name for it.
     pub name: String,
     /// [`content_hash`]; it depends on the size too.
     pub digest: String,
     /// Size of the frame, in pixels.
     pub resolution: Resolution,
+    /// Number of threads.
+    pub threads: usize,
+    /// The instruction set of vector kernels.
+    pub simd: SimdLevel,
 }
 
 impl Subject {
     /// The subject of a scene.
-    pub fn new(name: String, scene: &Scene) -> Self {
-        Self { name, digest: content_hash(scene), resolution: scene.camera.resolution() }
+    pub fn new(name: String, scene: &Scene, threads: usize, simd: SimdLevel) -> Self {
+        let resolution = scene.camera.resolution();
+        Self { name, digest: content_hash(scene), resolution, threads, simd }
     }
 }
 
 /// Everything that was measured on one scene.
 #[derive(Clone, Debug)]
 pub struct Measured {
-    /// Which scene.
+    /// Which scene, and how.
     pub subject: Subject,
     /// Its triangles.
     pub triangles: usize,
@@ -79,13 +106,8 @@ pub struct Measured {
     pub trees: Vec<TreeFigures>,
     /// One row per variant.
     pub rows: Vec<Row>,
-}
-
-impl Measured {
-    /// Whether some variant's answer was wrong.
-    pub fn has_wrong_answers(&self) -> bool {
-        self.rows.iter().any(|row| row.wrong_pixels.is_some_and(|wrong| wrong > 0))
-    }
+    /// What was not measured though it might have been, with the reason, in words.
+    pub left_out: Vec<String>,
 }
 
 /// A benchmark of any number of scenes.
@@ -93,54 +115,80 @@ impl Measured {
 pub struct Report {
     /// What it ran on.
     pub machine: Machine,
-    /// Number of threads.
-    pub threads: usize,
     /// Rounds that were asked for.
     pub rounds: usize,
-    /// The scenes, in the order they were given.
+    /// The scenes, in the order they were given, each on every number of threads.
     pub scenes: Vec<Measured>,
     /// The comparison with an earlier report, if one was asked for.
     pub comparison: Option<Vec<Compared>>,
 }
 
 impl Report {
-    /// Whether some answer was wrong or some row is slower than the baseline beyond noise.
+    /// Whether some answer of ours was wrong or some row is slower than the baseline beyond noise.
     pub fn has_failed(&self) -> bool {
-        self.scenes.iter().any(Measured::has_wrong_answers)
+        self.scenes.iter().flat_map(|scene| &scene.rows).any(Row::has_failed)
             || self.comparison.iter().flatten().any(Compared::is_regression)
     }
 }
 
 /// Why a scene was not measured.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error(
-    "{name}: no triangle is visible at any pixel, so no answer could be found wrong and nothing is timed; measure a scene that shows something"
-)]
-pub struct NothingVisible {
-    /// The scene.
-    pub name: String,
+#[non_exhaustive]
+pub enum BenchError {
+    /// No answer could be found wrong.
+    #[error(
+        "{name}: no triangle is visible at any pixel, so no answer could be found wrong and nothing is timed; measure a scene that shows something"
+    )]
+    NothingVisible {
+        /// The scene.
+        name: String,
+    },
+    /// A peer that was asked for.
+    #[error(transparent)]
+    Peer(#[from] PeerError),
 }
 
-/// Measures the standard variants on a scene, on the pool of threads it is called from.
+/// Measures the variants that the options ask for on a scene, on the pool of threads it is called
+/// from: `subject` says how many.
 ///
 /// # Errors
-/// When no triangle is visible.
+/// When no triangle is visible, and when a peer that was named cannot be measured.
 pub fn bench(
     scene: &Scene,
     subject: Subject,
-    options: BenchOptions,
+    options: &BenchOptions,
     progress: &dyn Progress,
-) -> Result<Measured, NothingVisible> {
+) -> Result<Measured, BenchError> {
     let window = scene.camera.resolution().window();
-    let kernels = Kernels::new(scene, progress);
+    let wants = |work| options.works.contains(&work);
+    let peers = match wants(Work::Closest) {
+        true => {
+            let simd = options.holds_simd.then_some(subject.simd);
+            let asked = PeerOptions { embree: options.embree.clone(), simd };
+            Peers::new(scene, window, &asked)?
+        }
+        false => Peers::default(),
+    };
+    let kernels = Kernels::new(scene, &options.presets, progress);
+    let counting = if wants(Work::Cover) { Counting::All } else { Counting::Nearest };
     let both = [kernels.standard_cast(), &Answerer::Raster]
-        .map(|answerer| answerer.see(scene, window, Counting::All, progress));
+        .map(|answerer| answerer.see(scene, window, counting, progress));
     let reference = Reference::of(scene, &both, options.audited_pixels, progress);
     if reference.covered_pixels() == 0 {
-        return Err(NothingVisible { name: subject.name });
+        return Err(BenchError::NothingVisible { name: subject.name });
     }
-    let exposure = kernels.exposure(scene, &both[0]);
-    let variants = kernels.variants(scene, (&both[0], &exposure));
+    let reference = match light_of(scene).filter(|_| wants(Work::Any)) {
+        Some(light) => reference.with_shadows(scene, light, options.audited_pixels),
+        None => reference,
+    };
+    let exposure = match wants(Work::Shade) {
+        true => Some(kernels.exposure(scene, &both[0])),
+        false => None,
+    };
+    let mut variants = kernels.variants(scene, &both[0], exposure.as_ref());
+    variants.extend(peers.variants());
+    variants.retain(|variant| wants(variant.work));
+    variants.sort_by_key(|variant| Work::ALL.iter().position(|&work| work == variant.work));
     let rows = take_turns(&variants, &reference, options.rounds, progress);
     Ok(Measured {
         subject,
@@ -150,5 +198,6 @@ pub fn bench(
         audited_pixels: reference.audited_pixels(),
         trees: kernels.trees(scene.mesh.len()),
         rows,
+        left_out: peers.left_out.clone(),
     })
 }

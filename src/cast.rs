@@ -11,23 +11,30 @@ mod candidate;
 mod coverage;
 mod exact;
 mod expansion;
+mod fill;
 mod filter;
 mod layers;
 mod memo;
+mod nearest;
 mod pair;
 mod ray;
 pub mod shadow;
 mod single;
+mod strips;
+mod tile;
 mod unrounded;
+mod whole;
 
 use crate::accel::{Accelerator, Pending, Slabs};
 use crate::mutant::{self, Mutant};
 use crate::pixel::{Pixel, Window, for_each_tile};
 use crate::scene::Scene;
+use crate::simd::SimdLevel;
 use crate::visibility::{
     Counting, Cover, Facing, Level, LevelCounts, VisibilityBuffer, VisibilityTile, Visible,
 };
 pub use layers::cast_layers;
+pub use nearest::{cast_nearest, cast_nearest_into};
 
 use candidate::Candidate;
 use memo::{PicturePairs, SamePlane};
@@ -36,6 +43,23 @@ use single::ShearedRay;
 
 /// Side of a tile, in pixels: neighbouring rays walk through the same nodes.
 pub const TILE_SIDE: u32 = 32;
+
+/// How rays are cast. The answer does not depend on it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct CastOptions {
+    /// Whether the rays of a tile walk the tree together; else one by one.
+    pub tiles: bool,
+    /// Largest side of a tile, in pixels, at least 1. Tiles that walk together are at most 32.
+    pub side: u32,
+    /// The instruction set of the kernels.
+    pub simd: SimdLevel,
+}
+
+impl Default for CastOptions {
+    fn default() -> Self {
+        Self { tiles: true, side: TILE_SIDE, simd: SimdLevel::best() }
+    }
+}
 
 /// What is visible at every pixel of `window`, with `accelerator` built over the scene's mesh.
 /// `done` is called once per finished tile of 32 × 32 pixels, from any thread.
@@ -46,26 +70,44 @@ pub fn cast(
     counting: Counting,
     done: &(dyn Fn() + Sync),
 ) -> VisibilityBuffer {
-    cast_with_tiles(scene, accelerator, window, counting, done, TILE_SIDE)
+    cast_with(scene, accelerator, window, counting, CastOptions::default(), done)
 }
 
-/// As [`cast`], in tiles of `side` × `side` pixels (at least 1). The answer is the same.
-pub fn cast_with_tiles(
+/// As [`cast`], done as `options` say. The answer is the same.
+pub fn cast_with(
     scene: &Scene,
     accelerator: &Accelerator,
     window: Window,
     counting: Counting,
+    options: CastOptions,
     done: &(dyn Fn() + Sync),
-    side: u32,
+) -> VisibilityBuffer {
+    // Mistakes are planted in the decisions of single rays, unless they are of the tiles.
+    let by_tiles = counting == Counting::Nearest && options.tiles && mutant::spares_tiles();
+    if by_tiles {
+        whole::cast_whole(scene, accelerator, window, options, done)
+    } else {
+        cast_rays(scene, accelerator, window, counting, options, done)
+    }
+}
+
+/// Ray by ray.
+fn cast_rays(
+    scene: &Scene,
+    accelerator: &Accelerator,
+    window: Window,
+    counting: Counting,
+    options: CastOptions,
+    done: &(dyn Fn() + Sync),
 ) -> VisibilityBuffer {
     let view = View::new(&scene.camera);
     let pairs = PicturePairs::default();
-    let tiles = for_each_tile(&window.tiles(side), done, |tile| {
+    let tiles = for_each_tile(&window.tiles(options.side), done, |tile| {
         let mut caster = TileCaster {
             view,
             accelerator,
             counting,
-            pending: Pending::default(),
+            pending: Pending::new(options.simd),
             same_plane: SamePlane::new(&pairs),
             levels: LevelCounts::default(),
         };
@@ -151,7 +193,12 @@ fn visible(view: &View, ray: &ray::Ray, nearest: &mut Candidate) -> Visible {
     Visible {
         triangle: nearest.triangle.id,
         facing: if front { Facing::Front } else { Facing::Back },
-        level: if tie { Level::Exact } else { covering.level },
+        level: match covering.level {
+            _ if tie => Level::Exact,
+            Level::Exact => Level::Exact,
+            _ if surface.is_clear => Level::Single,
+            _ => Level::Double,
+        },
         tie,
         barycentric: surface.barycentric,
         t_lo: view.camera_t(surface.t[0]),

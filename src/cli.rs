@@ -6,6 +6,7 @@ mod arguments;
 mod audit;
 mod bench;
 mod check;
+mod cost;
 mod explain;
 mod export;
 mod failure;
@@ -55,6 +56,7 @@ pub(crate) fn run() -> ExitCode {
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Sheet(arguments) => sheet::run(&arguments, &writing),
         Command::Bench(arguments) => bench::run(&arguments, &writing),
+        Command::Cost(arguments) => cost::run(&arguments, &writing),
         Command::Lobe(arguments) => lobe::run(&arguments, &writing),
     };
     match status {

@@ -39,6 +39,7 @@
 //!
 //! | floor | modules | what they hold |
 //! |---|---|---|
+//! | prices | [`cost`] | what accuracy costs: each setting's time against its error |
 //! | check | [`check`], [`mod@bench`], [`export`], [`sheet`] | both paths compared, the arbiter's word, blame, difference pictures; times of right answers; the oracle bundle; sheets of pictures |
 //! | frame | [`render`] | scene and options in, film out: the one place that knows both paths and shading |
 //! | lobe | [`lobe`] | goniometric diagrams of a reflectance |
@@ -113,6 +114,7 @@ pub mod bench;
 pub mod cast;
 pub mod check;
 pub mod color;
+pub mod cost;
 pub mod drawing;
 pub mod exact;
 pub mod export;

@@ -88,6 +88,11 @@ mutants! {
     ShortBins, "short bins", "a triangle misses the last tile that it enters";
     TileCorner, "tile corner", "a tile is dropped when one corner is outside one edge";
     ClosedEdges, "closed edges", "an edge that is 0 in a tile's corner counts as inside";
+    // Rays that walk together in tiles.
+    BelievedRows, "believed rows", "f32 decides edges and depths, whatever its bound";
+    NearerBlocks, "nearer blocks", "a block is skipped unless a triangle is certainly nearer";
+    StaleTies, "stale ties", "a tie stays when a nearer triangle covers it";
+    TightCone, "tight cone", "a box that the cone of a tile only touches is missed";
     // What is reported.
     ShiftedWeights, "shifted weights", "barycentric weights belong to the wrong corners";
     UnmarkedTies, "unmarked ties", "a sample on an edge is not reported as a tie";
@@ -136,6 +141,18 @@ pub use planted::plant;
 pub(crate) const fn is(_: Mutant) -> bool {
     false
 }
+
+/// Whether no mistake is planted in the decisions of single rays, or one is in the tiles': only
+/// then rays may walk in tiles, which do not ask for the others.
+#[inline(always)]
+pub(crate) fn spares_tiles() -> bool {
+    !cfg!(feature = "mutants")
+        || Mutant::ALL.iter().all(|mutant| !is(*mutant) || TILES.contains(mutant))
+}
+
+/// The mistakes of rays that walk in tiles.
+const TILES: &[Mutant] =
+    &[Mutant::BelievedRows, Mutant::NearerBlocks, Mutant::StaleTies, Mutant::TightCone];
 
 /// The value at the sample and its two derivatives, in the order in which the tie rule asks them:
 /// as given, but for planted mistakes.

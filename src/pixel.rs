@@ -137,6 +137,31 @@ impl Window {
         (self.y0..self.y1).flat_map(move |y| (self.x0..self.x1).map(move |x| Pixel { x, y }))
     }
 
+    /// The window cut into bands of at most `height` rows, aligned as [`Self::tiles`] are.
+    pub fn bands(self, height: u32) -> Vec<Window> {
+        assert!(height > 0, "a band has at least one row");
+        (self.y0 / height..self.y1.div_ceil(height))
+            .map(|band| Window {
+                x0: self.x0,
+                y0: (band * height).max(self.y0),
+                x1: self.x1,
+                y1: ((band + 1) * height).min(self.y1),
+            })
+            .collect()
+    }
+
+    /// The window cut into pieces of at most `width` columns, aligned as [`Self::tiles`] are.
+    pub fn columns(self, width: u32) -> Vec<Window> {
+        assert!(width > 0, "a piece has at least one column");
+        (self.x0 / width..self.x1.div_ceil(width))
+            .map(|piece| Window {
+                x0: (piece * width).max(self.x0),
+                x1: ((piece + 1) * width).min(self.x1),
+                ..self
+            })
+            .collect()
+    }
+
     /// The window cut into tiles of at most `side` × `side` pixels, row by row of tiles.
     /// Tiles are aligned to multiples of `side` of the frame, so a crop is cut as its frame is.
     pub fn tiles(self, side: u32) -> Vec<Window> {

@@ -12,33 +12,64 @@
 //! numbers and the shape of the answer.
 
 mod bins;
+mod blocks;
 mod bounds;
+mod coverage;
+mod doubt;
+mod draw;
 mod dyadic;
 mod exact;
 mod exact_row;
+mod frame;
 mod image_plane;
 mod layers;
+mod nearest;
+mod octet;
+mod placement;
 mod resolve;
 mod rows;
+mod scan;
+mod screen_box;
 mod span;
 mod stability;
+mod strips;
 mod tile;
 mod tile_lists;
+mod tile_rows;
 mod watertight;
 
-use crate::pixel::{Window, for_each_tile};
+use crate::pixel::Window;
 use crate::scene::Scene;
-use crate::visibility::{Counting, VisibilityBuffer};
-use bins::Bins;
-use bounds::Region;
+use crate::simd::SimdLevel;
+use crate::visibility::{Counting, Cover, LevelCounts, NearestBuffer, VisibilityBuffer};
+use blocks::MOST_SIDE;
 use image_plane::ImagePlane;
+use strips::{for_each_strip, strips};
+use tile::{Tile, Tiling};
 
 pub use layers::rasterize_layers;
 pub use stability::{STANDARD_HALF_WIDTH, stability, stability_in_tiles};
 pub use watertight::{DEPTH_ERROR, DepthBuffer, DepthFormat, SubpixelBits, rasterize_watertight};
 
-/// Side of a tile, in pixels: its z-buffer (1024 fragments of 32 bytes) fits a first-level cache.
+/// Side of a tile, in pixels: its z-buffer (1024 pixels of 12 bytes) fits a first-level cache.
 pub const TILE_SIDE: u32 = 32;
+
+/// How the work is cut and which instructions do it. No answer depends on it: only `levels` and the
+/// time taken do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RasterOptions {
+    /// Side of a tile, in pixels, at least 1; above 64 as 64.
+    pub tile_side: u32,
+    /// Instruction set of the vector kernels.
+    pub simd: SimdLevel,
+}
+
+impl Default for RasterOptions {
+    /// Tiles of [`TILE_SIDE`], the best instructions of the machine.
+    fn default() -> Self {
+        Self { tile_side: TILE_SIDE, simd: SimdLevel::best() }
+    }
+}
 
 /// What is visible at every pixel of `window`, which must lie inside the camera's frame.
 ///
@@ -49,11 +80,10 @@ pub fn rasterize(
     counting: Counting,
     done: &(dyn Fn() + Sync),
 ) -> VisibilityBuffer {
-    rasterize_in_tiles(scene, window, counting, TILE_SIDE, done)
+    rasterize_with(scene, window, counting, RasterOptions::default(), done)
 }
 
-/// [`rasterize`] with tiles of `side` × `side` pixels (at least 1). Only `levels` and the time
-/// taken depend on it.
+/// [`rasterize`] with tiles of `side` × `side` pixels (at least 1).
 pub fn rasterize_in_tiles(
     scene: &Scene,
     window: Window,
@@ -61,12 +91,85 @@ pub fn rasterize_in_tiles(
     side: u32,
     done: &(dyn Fn() + Sync),
 ) -> VisibilityBuffer {
+    let options = RasterOptions { tile_side: side, ..RasterOptions::default() };
+    rasterize_with(scene, window, counting, options, done)
+}
+
+/// [`rasterize`] with options. `done` is called once per finished tile.
+pub fn rasterize_with(
+    scene: &Scene,
+    window: Window,
+    counting: Counting,
+    options: RasterOptions,
+    done: &(dyn Fn() + Sync),
+) -> VisibilityBuffer {
+    let side = options.tile_side.clamp(1, MOST_SIDE);
     let plane = ImagePlane::new(&scene.camera);
-    let bins = Bins::new(&plane, &scene.mesh, Region::samples(window), side);
-    let tiles = for_each_tile(&window.tiles(side), done, |tile| {
-        tile::rasterize_tile(&plane, &scene.mesh, &bins, counting, tile)
-    });
-    VisibilityBuffer::from_tiles(window, counting, tiles)
+    let tiling = Tiling::new(&plane, &scene.mesh, window, side, options.simd);
+    let counts = counting == Counting::All;
+    let mut visible = vec![None; window.len()];
+    let mut cover = vec![Cover::default(); if counts { window.len() } else { 0 }];
+    let mut covers: Vec<_> = match counts {
+        true => strips(window, side, &mut cover).into_iter().map(Some).collect(),
+        false => Vec::new(),
+    };
+    let strips = strips(window, side, &mut visible);
+    covers.resize_with(strips.len(), || None);
+    let work = strips.into_iter().zip(covers).collect();
+    let levels = for_each_strip(
+        work,
+        || Tile::new(counts),
+        |tile, (mut visible, mut cover)| {
+            let mut levels = LevelCounts::default();
+            for window in visible.tiles.clone() {
+                let mut doubt = tile.draw(&tiling, window);
+                resolve::write(&tiling, tile, &mut doubt, &mut visible, cover.as_mut());
+                levels.add(doubt.levels);
+                done();
+            }
+            levels
+        },
+    );
+    let cover = counts.then_some(cover);
+    VisibilityBuffer { window, visible, cover, levels: sum(levels) }
+}
+
+/// Only the id and the t of what is visible at every pixel of `window`, which must lie inside the
+/// camera's frame; ids are as exact as those of [`rasterize`]. t is the f32 next to its true value
+/// or that one's neighbour. `done` is called once per finished tile.
+pub fn rasterize_nearest(
+    scene: &Scene,
+    window: Window,
+    options: RasterOptions,
+    done: &(dyn Fn() + Sync),
+) -> NearestBuffer {
+    let side = options.tile_side.clamp(1, MOST_SIDE);
+    let plane = ImagePlane::new(&scene.camera);
+    let tiling = Tiling::new(&plane, &scene.mesh, window, side, options.simd);
+    let mut ids = vec![0; window.len()];
+    let mut t = vec![0.0; window.len()];
+    let work = strips(window, side, &mut ids).into_iter().zip(strips(window, side, &mut t));
+    let levels = for_each_strip(
+        work.collect(),
+        || Tile::new(false),
+        |tile, (mut ids, mut t)| {
+            let mut levels = LevelCounts::default();
+            for window in ids.tiles.clone() {
+                let mut doubt = tile.draw(&tiling, window);
+                nearest::write(&tiling, tile, &mut doubt, &mut ids, &mut t);
+                levels.add(doubt.levels);
+                done();
+            }
+            levels
+        },
+    );
+    NearestBuffer { window, ids, t, levels: sum(levels) }
+}
+
+fn sum(levels: Vec<LevelCounts>) -> LevelCounts {
+    let mut total = LevelCounts::default();
+    levels.into_iter().for_each(|levels| total.add(levels));
+    total
 }
 
 #[cfg(test)]

@@ -20,7 +20,7 @@ pub mod sampling;
 pub mod shapes;
 pub mod switches;
 pub mod texture;
-mod transform;
+pub(crate) mod transform;
 mod vertex_normals;
 
 pub use load::{Overrides, SceneErrors};

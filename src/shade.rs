@@ -20,8 +20,10 @@ mod geometry;
 pub mod hemisphere;
 mod kernel;
 mod kernel_effects;
+mod lanes;
 mod lights;
 mod method;
+mod power;
 mod reach;
 pub mod reflection;
 mod specular;
@@ -45,6 +47,7 @@ use crate::color::LinearRgb;
 use crate::pixel::{self, Pixel};
 use crate::scene::Scene;
 use crate::scene::material::Material;
+use crate::simd::SimdLevel;
 use crate::visibility::{VisibilityBuffer, Visible};
 use coefficients::Coefficients;
 use equation::Lighting;
@@ -79,7 +82,41 @@ pub fn shade(
     effects: Effects,
     done: &(dyn Fn() + Sync),
 ) -> Shaded {
-    let (radiance, notes) = shade_rows(scene, buffer, effects, None, done, Notes::add);
+    shade_with(scene, buffer, &ShadeOptions::new(effects), None, done)
+}
+
+/// What is evaluated, and by which instructions.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ShadeOptions {
+    /// The effects that are evaluated; see [`shade`].
+    pub effects: Effects,
+    /// The instruction set that shades several pixels at once; `None` shades pixel by pixel. It
+    /// changes time, never a bit.
+    pub simd: Option<SimdLevel>,
+}
+
+impl ShadeOptions {
+    /// With the best instruction set of this machine.
+    pub fn new(effects: Effects) -> Self {
+        Self { effects, simd: Some(SimdLevel::best()) }
+    }
+}
+
+/// As [`shade`] and, with somebody to ask, [`shade_with_shadows`], by instructions of choice.
+pub fn shade_with<'a>(
+    scene: &'a Scene,
+    buffer: &VisibilityBuffer,
+    options: &ShadeOptions,
+    occlusion: Option<Occlusion<'a>>,
+    done: &(dyn Fn() + Sync),
+) -> Shaded {
+    let frame = Frame::new(scene, options.effects, occlusion);
+    let frame = match options.simd {
+        Some(level) => frame.in_lanes(level),
+        None => frame,
+    };
+    let kernel = kernel::row_kernel::<Notes>(options.effects);
+    let (radiance, notes) = shade_frame(&frame, kernel, buffer, done, Notes::add);
     Shaded { radiance, notes }
 }
 
@@ -93,9 +130,7 @@ pub fn shade_with_shadows<'a>(
     occlusion: Occlusion<'a>,
     done: &(dyn Fn() + Sync),
 ) -> Shaded {
-    let occlusion = Some(occlusion);
-    let (radiance, notes) = shade_rows(scene, buffer, effects, occlusion, done, Notes::add);
-    Shaded { radiance, notes }
+    shade_with(scene, buffer, &ShadeOptions::new(effects), Some(occlusion), done)
 }
 
 /// How often each effect's term is computed when `buffer` is shaded with `effects`.
@@ -104,7 +139,9 @@ pub fn count_evaluations(
     buffer: &VisibilityBuffer,
     effects: Effects,
 ) -> Evaluations {
-    shade_rows(scene, buffer, effects, None, &|| (), Evaluations::add).1
+    let frame = Frame::new(scene, effects, None);
+    let kernel = kernel::row_kernel::<Evaluations>(effects);
+    shade_frame(&frame, kernel, buffer, &|| (), Evaluations::add).1
 }
 
 /// The picture of [`shade`], bit for bit, with every effect forced on: every surface is set up in
@@ -115,19 +152,6 @@ pub fn shade_ungated(scene: &Scene, buffer: &VisibilityBuffer) -> Vec<LinearRgb>
     let frame = Frame::ungated(scene);
     let kernel = kernel::row_kernel::<Ungated>(Effects::ALL);
     shade_frame(&frame, kernel, buffer, &|| (), |_, _| ()).0
-}
-
-/// [`shade_frame`] with the kernel for `effects`.
-fn shade_rows<'a, W: Watch + Default + Copy + Send>(
-    scene: &'a Scene,
-    buffer: &VisibilityBuffer,
-    effects: Effects,
-    occlusion: Option<Occlusion<'a>>,
-    done: &(dyn Fn() + Sync),
-    add: fn(&mut W, W),
-) -> (Vec<LinearRgb>, W) {
-    let frame = Frame::new(scene, effects, occlusion);
-    shade_frame(&frame, kernel::row_kernel::<W>(effects), buffer, done, add)
 }
 
 /// Shades all rows, each with a watcher of its own; the watchers are added up, in any order.

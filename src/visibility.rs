@@ -28,7 +28,7 @@ impl Facing {
 /// The arithmetic that the visible triangle's own coverage needed at a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Level {
-    /// Certified by an f32 filter.
+    /// Certified by an f32 filter, or far enough from every edge for one.
     Single = 0,
     /// Certified by an f64 filter, or computed in f64 without any rounding.
     Double = 1,
@@ -125,6 +125,20 @@ pub struct VisibilityBuffer {
     pub visible: Vec<Option<Visible>>,
     /// Counts over all crossed triangles, when they were asked for.
     pub cover: Option<Vec<Cover>>,
+    /// Decisions per level.
+    pub levels: LevelCounts,
+}
+
+/// The nearest triangle of every pixel of a window and its ray parameter, row by row: what a z-buffer
+/// holds, and no more.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NearestBuffer {
+    /// Which pixels.
+    pub window: Window,
+    /// The visible triangle's id, exact; `u32::MAX` where nothing is visible.
+    pub ids: Vec<u32>,
+    /// The ray parameter t, to a relative 2^-18; +∞ where nothing is visible.
+    pub t: Vec<f32>,
     /// Decisions per level.
     pub levels: LevelCounts,
 }

@@ -1,7 +1,5 @@
 //! Axis-aligned boxes in f32. Minimum, maximum and union of f32 do not round: a box is exact.
 
-use crate::mutant::{self, Mutant};
-
 /// A closed box; empty while `lo > hi`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Bounds {
@@ -13,11 +11,6 @@ impl Bounds {
     pub(super) const EMPTY: Self = Self { lo: [f32::INFINITY; 3], hi: [f32::NEG_INFINITY; 3] };
 
     pub(super) fn of_triangle(vertices: &[[f32; 3]; 3]) -> Self {
-        let mut vertices = *vertices;
-        if mutant::is(Mutant::EdgeBoxes) {
-            let v0 = vertices[0];
-            vertices = vertices.map(|v| std::array::from_fn(|k| v0[k] - (v0[k] - v[k])));
-        }
         vertices
             .iter()
             .fold(Self::EMPTY, |bounds, &point| bounds.union(Self { lo: point, hi: point }))

@@ -89,11 +89,13 @@ pub(super) fn collect(mesh: &TriangleMesh) -> Entries {
             && bounds.last() == Some(&triangle_bounds)
             && canonical_bits(&last.vertices) == canonical_bits(&vertices)
         {
-            copies.entry(last.id).or_default().push(id);
+            if !mutant::is(Mutant::LostCopies) {
+                copies.entry(last.id).or_default().push(id);
+            }
             if mutant::is(Mutant::LastCopyKept) {
                 last.id = id;
             }
-            last.copies += u32::from(!mutant::is(Mutant::LostCopies));
+            last.copies += 1;
             continue;
         }
         triangles.push(LeafTriangle { vertices, id, copies: 1 });

@@ -15,23 +15,33 @@
 //! A direction component of ±0 gets the reciprocal +∞: a slab that contains the eye strictly is
 //! (−∞, ∞), one that does not is empty, and where the eye lies on a face, 0·∞ = NaN leaves the
 //! bound as it is, because `larger` and `smaller` return the other operand then: slabs are closed.
+//!
+//! All boxes of a node are tested at once, in f64 lanes, and the box of every triangle of a leaf
+//! likewise, so that a caller sees the triangles whose own box the line meets and no others.
 
 mod segment;
 
 pub(crate) use segment::Segment;
 
 use super::entries::LeafTriangle;
-use super::node::{Child, Tree};
+use super::wide::{GROUP, Leaf, Link, Linked, WIDTH, WideTree};
+use crate::mesh::TriangleId;
 use crate::mutant::{self, Mutant};
+use crate::simd::SimdLevel;
+use fearless_simd::{Level, Select, Simd, SimdBase, SimdMask, SimdWiden, dispatch, f32x16, f64x8};
+use std::collections::HashMap;
 
 /// κ = 1 + 8u, u = 2^-53: see the module's derivation.
 const PADDING: f64 = 1.0 + 4.0 * f64::EPSILON;
 
+/// Planes of eight boxes: `planes[side][axis]`, side 0 the lower faces and 1 the upper ones.
+pub(crate) type Planes<S> = [[f64x8<S>; 3]; 2];
+
 /// A line that boxes are tested against.
 pub(crate) trait MeetsBoxes {
-    /// Bounds of the line's parameter inside each of two boxes, `[near, far]` per box; near is at
-    /// least 0, far is padded. A box is missed if near > far.
-    fn meet(&self, planes: &[[[f32; 2]; 3]; 2]) -> [[f64; 2]; 2];
+    /// Bounds of the line's parameter inside each of eight boxes, near and far; near is at least 0,
+    /// far is padded. A box is missed if near > far.
+    fn meet<S: Simd>(&self, simd: S, planes: &Planes<S>) -> [f64x8<S>; 2];
 }
 
 /// A ray as the slab test wants it.
@@ -56,24 +66,24 @@ impl Slabs {
 
 impl MeetsBoxes for Slabs {
     #[inline(always)]
-    fn meet(&self, planes: &[[[f32; 2]; 3]; 2]) -> [[f64; 2]; 2] {
-        let mut near = [0.0; 2];
-        let mut far = [f64::INFINITY; 2];
-        let rays = self.eye.iter().zip(&self.reciprocal).zip(&self.near_side);
-        for (axis, ((eye, reciprocal), side)) in rays.enumerate() {
-            let (first, last) = (planes[side & 1][axis], planes[1 - (side & 1)][axis]);
-            for child in 0..2 {
-                near[child] = larger((f64::from(first[child]) - eye) * reciprocal, near[child]);
-                far[child] = smaller((f64::from(last[child]) - eye) * reciprocal, far[child]);
-            }
+    fn meet<S: Simd>(&self, simd: S, planes: &Planes<S>) -> [f64x8<S>; 2] {
+        let mut near = f64x8::splat(simd, 0.0);
+        let mut far = f64x8::splat(simd, f64::INFINITY);
+        for axis in 0..3 {
+            let side = self.near_side[axis] & 1;
+            let (first, last) = (planes[side][axis], planes[1 - side][axis]);
+            let eye = f64x8::splat(simd, self.eye[axis]);
+            let reciprocal = f64x8::splat(simd, self.reciprocal[axis]);
+            near = larger((first - eye) * reciprocal, near);
+            far = smaller((last - eye) * reciprocal, far);
         }
         if mutant::is(Mutant::UnpaddedSlabs) {
             return [near, far];
         }
         if mutant::is(Mutant::OpenSlabs) {
-            return [near, far.map(f64::next_down)];
+            return [near, far * f64x8::splat(simd, 1.0 - 2.0 * f64::EPSILON)];
         }
-        [[near[0], near[1]], [far[0] * PADDING, far[1] * PADDING]]
+        [near, far * f64x8::splat(simd, PADDING)]
     }
 }
 
@@ -91,68 +101,195 @@ fn reciprocal(d: f64) -> f64 {
 
 /// The larger; `bound` when `value` is NaN.
 #[inline(always)]
-fn larger(value: f64, bound: f64) -> f64 {
-    if value > bound { value } else { bound }
+fn larger<S: Simd>(value: f64x8<S>, bound: f64x8<S>) -> f64x8<S> {
+    value.simd_gt(bound).select(value, bound)
 }
 
 /// The smaller; `bound` when `value` is NaN.
 #[inline(always)]
-fn smaller(value: f64, bound: f64) -> f64 {
-    if value < bound { value } else { bound }
+fn smaller<S: Simd>(value: f64x8<S>, bound: f64x8<S>) -> f64x8<S> {
+    value.simd_lt(bound).select(value, bound)
 }
 
 /// Subtrees that a ray has met and not entered yet; kept between rays for its memory.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Pending(Vec<(Child, f64)>);
+#[derive(Clone, Debug)]
+pub(crate) struct Pending {
+    waiting: Vec<(Link, f64)>,
+    level: Level,
+}
 
-impl Tree {
-    /// Calls `visit` with the triangles of every leaf that the line meets before its reach, nearer
-    /// boxes first where that is cheap to know. `visit` returns the reach from then on: no
-    /// triangle whose exact parameter is at most the reach is left out (the comparison is not
-    /// strict); −∞ ends the walk.
+impl Pending {
+    /// For walks on this instruction set.
+    pub(crate) fn new(level: SimdLevel) -> Self {
+        Self { waiting: Vec::new(), level: level.dispatched() }
+    }
+}
+
+impl Default for Pending {
+    fn default() -> Self {
+        Self::new(SimdLevel::best())
+    }
+}
+
+/// Sixteen boxes as a line met them.
+struct Met {
+    near: [f64; WIDTH],
+    /// Bit per box that is met within reach.
+    boxes: u32,
+}
+
+impl WideTree {
+    /// Calls `visit` with every triangle whose box the line meets before its reach, nearer nodes
+    /// first. `visit` returns the reach from then on: no triangle whose exact parameter is at most
+    /// the reach is left out (the comparison is not strict); −∞ ends the walk. `copies` holds the
+    /// other ids of triangles that are kept for several.
     pub(super) fn traverse(
         &self,
-        boxes: &impl MeetsBoxes,
+        copies: &HashMap<TriangleId, Vec<TriangleId>>,
+        line: &impl MeetsBoxes,
         pending: &mut Pending,
         mut visit: impl FnMut(&[LeafTriangle]) -> f64,
     ) {
-        let Some(mut child) = self.root else { return };
         let mut reach = f64::INFINITY;
-        let waiting = &mut pending.0;
+        let level = pending.level;
+        let waiting = &mut pending.waiting;
         waiting.clear();
-        loop {
-            if child.count > 0 {
-                let range = child.first as usize..(child.first + child.count) as usize;
-                reach = visit(&self.triangles[range]) * PADDING;
-            } else {
-                let node = &self.nodes[child.first as usize];
-                let [near, far] = boxes.meet(&node.planes);
-                let met: [bool; 2] = std::array::from_fn(|i| near[i] <= far[i] && near[i] <= reach);
-                let first = usize::from(near[1] < near[0]);
-                match met {
-                    [true, true] => {
-                        waiting.push((node.children[1 - first], near[1 - first]));
-                        child = node.children[first];
-                        continue;
+        waiting.extend(self.roots.iter().rev().map(|&root| (root, 0.0)));
+        while let Some((link, near)) = waiting.pop() {
+            if near > reach {
+                continue;
+            }
+            match link.target() {
+                Linked::Node(index) => {
+                    let node = &self.nodes[index];
+                    let there = (1_u32 << node.count.min(WIDTH as u32)) - 1;
+                    let met = dispatch!(
+                        level, simd => meet_planes(simd, line, &node.planes, reach)
+                    );
+                    push(waiting, &met, met.boxes & there, &node.children);
+                }
+                Linked::Leaf(leaf) => {
+                    let mut first = 0;
+                    while first < leaf.count {
+                        // A mirror image needs that its box behind the eye is let through too.
+                        let met = if self.is_linear || mutant::is(Mutant::MirrorGhost) {
+                            Met { near: [0.0; WIDTH], boxes: u32::MAX }
+                        } else {
+                            dispatch!(
+                                level, simd => meet_triangles(simd, line, self, leaf, first, reach)
+                            )
+                        };
+                        let lanes = (leaf.count - first).min(WIDTH);
+                        let mut left = met.boxes & (u32::MAX >> (32 - lanes));
+                        while left != 0 {
+                            let lane = left.trailing_zeros() as usize;
+                            left &= left - 1;
+                            if met.near[lane] > reach {
+                                continue;
+                            }
+                            let Some((id, vertices)) = self.triangle(leaf, first + lane) else {
+                                continue;
+                            };
+                            let others = if copies.is_empty() { None } else { copies.get(&id) };
+                            let copies = 1 + others.map_or(0, |others| others.len() as u32);
+                            let triangle = LeafTriangle { vertices, id, copies };
+                            reach = visit(std::slice::from_ref(&triangle)) * PADDING;
+                        }
+                        first += WIDTH;
                     }
-                    [true, false] => {
-                        child = node.children[0];
-                        continue;
-                    }
-                    [false, true] => {
-                        child = node.children[1];
-                        continue;
-                    }
-                    [false, false] => {}
                 }
             }
-            child = loop {
-                match waiting.pop() {
-                    Some((next, near)) if near <= reach => break next,
-                    Some(_) => {}
-                    None => return,
-                }
-            };
         }
     }
+}
+
+/// Puts children on the stack, the nearest on top.
+#[inline(always)]
+fn push(waiting: &mut Vec<(Link, f64)>, met: &Met, boxes: u32, children: &[u32; WIDTH]) {
+    let bottom = waiting.len();
+    let mut left = boxes;
+    while left != 0 {
+        let lane = left.trailing_zeros() as usize;
+        left &= left - 1;
+        let near = met.near[lane];
+        waiting.push((Link(children[lane]), near));
+        let mut at = waiting.len() - 1;
+        while at > bottom && waiting[at - 1].1 < near {
+            waiting.swap(at - 1, at);
+            at -= 1;
+        }
+    }
+}
+
+/// The boxes of a node.
+#[inline(always)]
+fn meet_planes<S: Simd>(
+    simd: S,
+    line: &impl MeetsBoxes,
+    planes: &[[[f32; WIDTH]; 3]; 2],
+    reach: f64,
+) -> Met {
+    let mut vectors = [[f32x16::splat(simd, 0.0); 3]; 2];
+    for side in 0..2 {
+        for axis in 0..3 {
+            vectors[side][axis] = f32x16::load_array_ref(simd, &planes[side][axis]);
+        }
+    }
+    meet_sixteen(simd, line, &vectors, reach)
+}
+
+/// The boxes of sixteen triangles of a leaf. Minimum and maximum of f32 do not round.
+#[inline(always)]
+fn meet_triangles<S: Simd>(
+    simd: S,
+    line: &impl MeetsBoxes,
+    tree: &WideTree,
+    leaf: Leaf,
+    first: usize,
+    reach: f64,
+) -> Met {
+    let rows = &tree.vertices[9 * leaf.first..9 * (leaf.first + leaf.count) + WIDTH];
+    let mut vectors = [[f32x16::splat(simd, 0.0); 3]; 2];
+    for axis in 0..3 {
+        let at = axis * leaf.count + first;
+        let mut lo = f32x16::from_slice(simd, &rows[at..at + WIDTH]);
+        let mut hi = lo;
+        for corner in 1..3 {
+            let at = (3 * corner + axis) * leaf.count + first;
+            let mut other = f32x16::from_slice(simd, &rows[at..at + WIDTH]);
+            if mutant::is(Mutant::EdgeBoxes) {
+                let first = f32x16::from_slice(simd, &rows[axis * leaf.count + first..][..WIDTH]);
+                other = first - (first - other);
+            }
+            (lo, hi) = (lo.min(other), hi.max(other));
+        }
+        (vectors[0][axis], vectors[1][axis]) = (lo, hi);
+    }
+    meet_sixteen(simd, line, &vectors, reach)
+}
+
+#[inline(always)]
+fn meet_sixteen<S: Simd>(
+    simd: S,
+    line: &impl MeetsBoxes,
+    vectors: &[[f32x16<S>; 3]; 2],
+    reach: f64,
+) -> Met {
+    let mut halves = [[[f64x8::splat(simd, 0.0); 3]; 2]; 2];
+    for side in 0..2 {
+        for axis in 0..3 {
+            let (low, high) = vectors[side][axis].widen();
+            halves[0][side][axis] = low;
+            halves[1][side][axis] = high;
+        }
+    }
+    let mut met = Met { near: [0.0; WIDTH], boxes: 0 };
+    let reach = f64x8::splat(simd, reach);
+    for half in 0..2 {
+        let [near, far] = line.meet(simd, &halves[half]);
+        let bits = (near.simd_le(far) & near.simd_le(reach)).to_bitmask() as u32;
+        met.boxes |= bits << (half * GROUP);
+        near.store_slice(&mut met.near[half * GROUP..(half + 1) * GROUP]);
+    }
+    met
 }

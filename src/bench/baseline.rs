@@ -1,8 +1,8 @@
 //! A report held against an earlier one: what became slower, beyond noise.
 //!
-//! Times are compared only for the same scene, size and number of threads; anything else is an
-//! error, never a result. That the machine is the same is for people to know: see
-//! [`Baseline::cpu`].
+//! Times are compared only for the same scene, size, number of threads and instruction set; anything
+//! else is an error, never a result. That the machine is the same is for people to know: see
+//! [`Baseline::cpu`]. Other programs' times are theirs, and not compared.
 
 use super::report::SCHEMA;
 use super::{Measured, Subject};
@@ -62,13 +62,27 @@ pub enum BaselineError {
     /// The JSON of something else, or of another version of reports.
     #[error("the schema is `{0}`, not `{SCHEMA}`; write a new one with -o FILE.json")]
     Schema(String),
-    /// Another number of threads.
-    #[error("measured on {old} threads, not {new}; give --threads {old}, or measure it anew")]
+    /// Other numbers of threads.
+    #[error(
+        "{scene} was measured on {old} threads, not {new}; give --threads {old}, or measure it anew"
+    )]
     Threads {
-        /// Of the baseline.
-        old: usize,
+        /// The scene.
+        scene: String,
+        /// Those of the baseline, separated by commas.
+        old: String,
         /// Of now.
         new: usize,
+    },
+    /// Another instruction set.
+    #[error("{scene} was measured on {old}, not {new}; give --simd {old}, or measure it anew")]
+    Simd {
+        /// The scene.
+        scene: String,
+        /// Those of the baseline, separated by commas.
+        old: String,
+        /// Of now.
+        new: String,
     },
     /// The scene at another size.
     #[error("{scene} was measured at {old}, not {new}; give --size {old}, or measure it anew")]
@@ -113,7 +127,6 @@ pub enum BaselineError {
 /// An earlier report.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Baseline {
-    threads: usize,
     machine: OldMachine,
     scenes: Vec<OldScene>,
 }
@@ -134,6 +147,8 @@ struct OldScene {
     digest: String,
     width: u32,
     height: u32,
+    threads: usize,
+    simd: String,
     rows: Vec<OldRow>,
 }
 
@@ -170,14 +185,11 @@ impl Baseline {
         self.machine.cpu.as_deref()
     }
 
-    /// Whether times of this subject on so many threads can be compared with it.
+    /// Whether times of this subject can be compared with it.
     ///
     /// # Errors
-    /// When the number of threads, the size or the scene is another one.
-    pub fn admit(&self, subject: &Subject, threads: usize) -> Result<(), BaselineError> {
-        if threads != self.threads {
-            return Err(BaselineError::Threads { old: self.threads, new: threads });
-        }
+    /// When anything in which subjects may differ is another one.
+    pub fn admit(&self, subject: &Subject) -> Result<(), BaselineError> {
         self.scene(subject).map(|_| ())
     }
 
@@ -185,17 +197,13 @@ impl Baseline {
     ///
     /// # Errors
     /// As [`Self::admit`], and when no variant has.
-    pub fn compare(
-        &self,
-        measured: &Measured,
-        threads: usize,
-    ) -> Result<Vec<Compared>, BaselineError> {
-        self.admit(&measured.subject, threads)?;
+    pub fn compare(&self, measured: &Measured) -> Result<Vec<Compared>, BaselineError> {
         let scene = &measured.subject.name;
         let old = self.scene(&measured.subject)?;
         let compared: Vec<Compared> = measured
             .rows
             .iter()
+            .filter(|row| row.program.is_none())
             .filter_map(|row| {
                 let new = row.times?;
                 let old = old.rows.iter().find(|old| old.name == row.name)?.time()?;
@@ -215,8 +223,26 @@ impl Baseline {
 
     /// The entry with the subject's digest, or in what the one of its name differs.
     fn scene(&self, subject: &Subject) -> Result<&OldScene, BaselineError> {
-        if let Some(same) = self.scenes.iter().find(|old| old.digest == subject.digest) {
-            return Ok(same);
+        let same: Vec<_> = self.scenes.iter().filter(|old| old.digest == subject.digest).collect();
+        let alike: Vec<_> = same.iter().filter(|old| old.threads == subject.threads).collect();
+        if let Some(alike) = alike.iter().find(|old| old.simd == subject.simd.name()) {
+            return Ok(alike);
+        }
+        if !alike.is_empty() {
+            let old: Vec<&str> = alike.iter().map(|old| &*old.simd).collect();
+            return Err(BaselineError::Simd {
+                scene: subject.name.clone(),
+                old: old.join(","),
+                new: subject.simd.to_string(),
+            });
+        }
+        if !same.is_empty() {
+            let old: Vec<String> = same.iter().map(|old| old.threads.to_string()).collect();
+            return Err(BaselineError::Threads {
+                scene: subject.name.clone(),
+                old: old.join(","),
+                new: subject.threads,
+            });
         }
         let scene = subject.name.clone();
         let Some(old) = self.scenes.iter().find(|old| old.scene == scene) else {

@@ -1,4 +1,4 @@
-//! What a benchmark ran on, as far as the standard library and Linux tell.
+//! What a benchmark ran on, as far as the standard library, Linux and the build tell.
 
 use std::thread::available_parallelism;
 
@@ -11,6 +11,10 @@ pub struct Machine {
     pub cpu: Option<String>,
     /// Version of this crate.
     pub version: &'static str,
+    /// Version of the compiler that built it; `None` where it does not tell.
+    pub rustc: Option<&'static str>,
+    /// Commit that it was built from, where the package or the builder says so: see `build.rs`.
+    pub commit: Option<&'static str>,
 }
 
 impl Machine {
@@ -21,6 +25,8 @@ impl Machine {
             logical_cores: available_parallelism().ok().map(usize::from),
             cpu: cpu_model(&text),
             version: env!("CARGO_PKG_VERSION"),
+            rustc: option_env!("TRUECAST_RUSTC"),
+            commit: option_env!("TRUECAST_COMMIT"),
         }
     }
 }

@@ -4,12 +4,13 @@
 //! sample with a fixed seed, half of it beside a change of triangle, where errors live. A variant is
 //! then wrong at a pixel if its triangle is another one, or its cover where it counts.
 
-use crate::exact::Arbiter;
+use crate::exact::{Arbiter, Shadows};
 use crate::film::{Film, Samples};
 use crate::mesh::TriangleId;
 use crate::pixel::Window;
 use crate::render::Progress;
 use crate::scene::Scene;
+use crate::scene::light_point::LightPoint;
 use crate::visibility::{Cover, VisibilityBuffer};
 use rayon::prelude::*;
 use std::collections::BTreeSet;
@@ -28,6 +29,8 @@ pub struct Reference {
     cover: Vec<Cover>,
     disputed: usize,
     audited: usize,
+    /// Positions of the window, and whether what is visible there is in shadow.
+    shadowed: Vec<(usize, bool)>,
 }
 
 impl Reference {
@@ -66,7 +69,32 @@ impl Reference {
             ids[index] = answer.visible.map(|surface| surface.triangle);
             cover[index] = answer.cover;
         }
-        Self { window, ids, cover, disputed: disputed.len(), audited: asked.len() }
+        let (disputed, audited) = (disputed.len(), asked.len());
+        Self { window, ids, cover, disputed, audited, shadowed: Vec::new() }
+    }
+
+    /// Also says for up to `count` of the pixels at which something is visible whether anything
+    /// stands between it and the light, in exact arithmetic alone.
+    #[must_use]
+    pub fn with_shadows(self, scene: &Scene, light: LightPoint, count: usize) -> Self {
+        let shadows = Shadows::new(scene, light);
+        let asked: Vec<_> = sample(self.window, &self.ids, count)
+            .into_iter()
+            .filter_map(|index| Some((index, self.ids[index]?)))
+            .collect();
+        let answer = |&(index, id): &(usize, TriangleId)| {
+            let occluders = shadows.occluders(self.window.pixel(index), id, |_| true);
+            (index, !occluders.is_empty())
+        };
+        Self { shadowed: asked.par_iter().map(answer).collect(), ..self }
+    }
+
+    /// At how many of the pixels that exact arithmetic looked at the answer about shadows is wrong;
+    /// all of them if it is not for this window.
+    pub fn wrong_shadows(&self, shadowed: &[bool]) -> usize {
+        let is_wrong =
+            |&&(index, expected): &&(usize, bool)| shadowed.get(index) != Some(&expected);
+        self.shadowed.iter().filter(is_wrong).count()
     }
 
     /// Pixels at which a triangle is visible.
@@ -106,12 +134,19 @@ impl Reference {
     /// such plane for this window.
     pub fn wrong_pixels_of_film(&self, film: &Film) -> usize {
         match film.plane("id.prim") {
-            Some(Samples::Uint(ids)) if film.window == self.window => {
-                let expected = self.ids.iter().map(|id| id.map_or(NOTHING, TriangleId::get));
-                ids.iter().zip(expected).filter(|(found, expected)| **found != *expected).count()
-            }
+            Some(Samples::Uint(ids)) => self.wrong_ids(film.window, ids.iter().copied()),
             _ => self.ids.len(),
         }
+    }
+
+    /// At how many pixels of a window other ids than the right ones stand, row by row, with
+    /// `u32::MAX` for nothing; all of them if it is another window.
+    pub fn wrong_ids(&self, window: Window, ids: impl ExactSizeIterator<Item = u32>) -> usize {
+        if window != self.window || ids.len() != self.ids.len() {
+            return self.ids.len();
+        }
+        let expected = self.ids.iter().map(|id| id.map_or(NOTHING, TriangleId::get));
+        ids.zip(expected).filter(|(found, expected)| found != expected).count()
     }
 }
 

@@ -4,7 +4,7 @@
 //! variant's own work is timed; comparing its answer and freeing it are not.
 
 use super::reference::Reference;
-use super::workload::{Amount, Answer, Variant};
+use super::workload::{Amount, Answer, Variant, Work};
 use crate::render::Progress;
 use crate::statistics::Statistics;
 use crate::visibility::LevelCounts;
@@ -15,19 +15,30 @@ use std::time::{Duration, Instant};
 pub struct Row {
     /// The variant.
     pub name: String,
+    /// What kind of work it is.
+    pub work: Work,
     /// What it works through.
     pub amount: Amount,
+    /// The other program whose work it is; `None` for ours.
+    pub program: Option<String>,
     /// Pixels at which its answer was wrong, the most in any run; `None` for a variant that answers
     /// no question of visibility.
     pub wrong_pixels: Option<usize>,
-    /// Its times; `None` if an answer was wrong.
+    /// Its times; `None` if an answer of ours was wrong. Another program's stand beside its errors.
     pub times: Option<Statistics>,
     /// Decisions per level of arithmetic, where the variant reports them.
     pub levels: Option<LevelCounts>,
 }
 
-/// Checks every variant, then times those that are right `rounds` times, at least once. A variant
-/// whose answer is wrong in any run has no times.
+impl Row {
+    /// Whether an answer of ours was wrong, which is an error of this program and leaves no time.
+    pub fn has_failed(&self) -> bool {
+        self.program.is_none() && self.wrong_pixels.is_some_and(|wrong| wrong > 0)
+    }
+}
+
+/// Checks every variant, then times those that have not failed `rounds` times, at least once. A
+/// variant of ours whose answer is wrong in any run has no times.
 pub fn take_turns(
     variants: &[Variant<'_>],
     reference: &Reference,
@@ -44,12 +55,15 @@ pub fn take_turns(
             progress.step();
             Row {
                 name: variant.name.clone(),
+                work: variant.work,
                 amount: variant.amount,
+                program: variant.program.clone(),
                 wrong_pixels: wrong_pixels(&answer, reference),
                 times: None,
                 levels: match &answer {
                     Answer::Visibility(buffer) => Some(buffer.levels),
-                    Answer::Film(_) | Answer::Unchecked => None,
+                    Answer::Nearest { levels, .. } => Some(*levels),
+                    _ => None,
                 },
             }
         })
@@ -57,7 +71,7 @@ pub fn take_turns(
     let mut times: Vec<Vec<Duration>> = vec![Vec::new(); variants.len()];
     for _ in 0..rounds {
         for ((variant, row), times) in variants.iter().zip(&mut rows).zip(&mut times) {
-            if row.wrong_pixels.is_none_or(|wrong| wrong == 0) {
+            if !row.has_failed() {
                 let started = Instant::now();
                 let answer = variant.run();
                 times.push(started.elapsed());
@@ -67,7 +81,7 @@ pub fn take_turns(
         }
     }
     for (row, times) in rows.iter_mut().zip(&times) {
-        if row.wrong_pixels.is_none_or(|wrong| wrong == 0) {
+        if !row.has_failed() {
             row.times = Statistics::of(times);
         }
     }
@@ -77,7 +91,12 @@ pub fn take_turns(
 fn wrong_pixels(answer: &Answer, reference: &Reference) -> Option<usize> {
     match answer {
         Answer::Visibility(buffer) => Some(reference.wrong_pixels(buffer)),
+        Answer::Nearest { window, ids, .. } => {
+            Some(reference.wrong_ids(*window, ids.iter().copied()))
+        }
         Answer::Film(film) => Some(reference.wrong_pixels_of_film(film)),
+        Answer::Hits(hits) => Some(reference.wrong_ids(hits.window, hits.ids())),
+        Answer::Shadowed(shadowed) => Some(reference.wrong_shadows(shadowed)),
         Answer::Unchecked => None,
     }
 }

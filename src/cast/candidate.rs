@@ -27,6 +27,14 @@ pub(super) struct Candidate {
     pub(super) shared: bool,
 }
 
+/// An f32 filter of W_i = (a_j × E_i)·d that knows no more than the vectors' largest components, A·E·d,
+/// has a bound of 40·2^-24 of it, by the derivation of `filter` with u = 2^-24. What is beyond is
+/// clear to f32, whoever computes it.
+pub(super) const CLEAR_EDGE: f64 = 40.0 / (1 << 24) as f64;
+
+/// t to its certain bounds: see [`surface`].
+pub(super) const T_PADDING: [f64; 2] = [1.0 - 12.0 * U, 1.0 + 12.0 * U];
+
 /// Where and how a ray meets its triangle; a function of the two and nothing else.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Surface {
@@ -34,6 +42,8 @@ pub(super) struct Surface {
     pub(super) t: [f64; 2],
     /// W_i/ΣW.
     pub(super) barycentric: Barycentric,
+    /// Whether all W_i are beyond [`CLEAR_EDGE`].
+    pub(super) is_clear: bool,
 }
 
 impl Candidate {
@@ -175,27 +185,42 @@ fn crude_interval(covering: Covering) -> [f64; 2] {
 /// t = V/D to 3u + 5u + u, u more for multiplying by the padding: 12u on each side with room for
 /// terms in u², a relative width of 24u < 2^-48.
 pub(super) fn surface(ray: &Ray, v: &Vertices) -> Surface {
-    let a = v.map(|vertex| PairVector::difference(vertex, ray.eye));
-    let edges = [
-        PairVector::difference(v[2], v[1]),
-        PairVector::difference(v[0], v[2]),
-        PairVector::difference(v[1], v[0]),
-    ];
+    let edges = edge_pairs(ray.eye, v);
     let d = PairVector::exact(ray.direction());
-    let w: [f64; 3] =
-        std::array::from_fn(|i| match triple_product(&d, &a[(i + 1) % 3], &edges[i]) {
+    let w: [f64; 3] = std::array::from_fn(|i| {
+        let [a, e] = &edges[i];
+        match triple_product(a, e, &d) {
             Some(value) => value.abs(),
             None => unrounded::edge_value(ray, v, i)
                 .map_or_else(|| exact::edge_magnitude(ray, v, i), f64::abs),
-        });
-    let plane = match triple_product(&edges[1], &edges[2], &a[0]) {
-        Some(value) => value.abs(),
-        None => exact::plane_magnitude(ray, v),
+        }
+    });
+    let is_clear = |i: usize| {
+        let [a, e] = &edges[i];
+        w[i] > CLEAR_EDGE * (a.largest() * e.largest()) * d.largest()
     };
     let speed = (w[0] + w[1]) + w[2];
-    let t = plane / speed;
+    let t = plane_magnitude(ray, v, &edges) / speed;
     Surface {
-        t: [t * (1.0 - 12.0 * U), t * (1.0 + 12.0 * U)],
+        t: [t * T_PADDING[0], t * T_PADDING[1]],
         barycentric: Barycentric(mutant::shifted(w).map(|w| w / speed)),
+        is_clear: (0..3).all(is_clear),
+    }
+}
+
+/// Per corner i, a_j and E_i, of which W_i = (a_j × E_i)·d.
+pub(super) fn edge_pairs(eye: [f64; 3], v: &Vertices) -> [[PairVector; 2]; 3] {
+    std::array::from_fn(|i| {
+        let (j, k) = ((i + 1) % 3, (i + 2) % 3);
+        [PairVector::difference(v[j], eye), PairVector::difference(v[k], v[j])]
+    })
+}
+
+/// |V|, relative error at most 3u.
+pub(super) fn plane_magnitude(ray: &Ray, v: &Vertices, edges: &[[PairVector; 2]; 3]) -> f64 {
+    // a_0 is that of edge 2.
+    match triple_product(&edges[1][1], &edges[2][1], &edges[2][0]) {
+        Some(value) => value.abs(),
+        None => exact::plane_magnitude(ray, v),
     }
 }

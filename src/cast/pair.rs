@@ -28,7 +28,8 @@ impl PairVector {
         Self { high, low: [0.0; 3] }
     }
 
-    fn largest(&self) -> f64 {
+    /// The largest magnitude of a component.
+    pub(super) fn largest(&self) -> f64 {
         largest(self.high)
     }
 }
@@ -39,6 +40,10 @@ pub(super) fn largest(v: [f64; 3]) -> f64 {
     let larger = |a: f64, b: f64| if a > b { a } else { b };
     larger(larger(v[0].abs(), v[1].abs()), v[2].abs())
 }
+
+/// A triple product below this part of the product of its vectors' largest components has no
+/// certain relative error: 2^52·64·u²·6 = 384·2^-54, see [`triple_product`].
+const UNCERTAIN: f64 = 384.0 / (1_u64 << 54) as f64;
 
 /// (a × b)·c with a relative error of at most 3u, or `None` where that is not certain.
 ///
@@ -54,26 +59,37 @@ pub(super) fn largest(v: [f64; 3]) -> f64 {
 /// |value| ≥ 2^52·64u²·6·ABC leaves a relative error of u/2 · (1 + u), the sum's own rounding adds
 /// u; 3u bounds it with room for the roundings of the bound itself.
 pub(super) fn triple_product(a: &PairVector, b: &PairVector, c: &PairVector) -> Option<f64> {
-    let mut products = [0.0; 3];
-    let mut tails = [0.0; 3];
+    let value = dot(&cross(a, b), c);
+    let bound = UNCERTAIN * (a.largest() * b.largest() * c.largest());
+    (value.abs() > bound).then_some(value)
+}
+
+/// a × b, each component as a pair.
+pub(super) fn cross(a: &PairVector, b: &PairVector) -> PairVector {
+    let mut product = PairVector::exact([0.0; 3]);
     for k in 0..3 {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
-        // Component k of a × b: a_i·b_j − a_j·b_i.
         let [p, p_error] = two_product(a.high[i], b.high[j]);
         let [q, q_error] = two_product(a.high[j], b.high[i]);
         let [s, s_error] = two_difference(p, q);
         let mixed = (a.high[i] * b.low[j] + a.low[i] * b.high[j])
             - (a.high[j] * b.low[i] + a.low[j] * b.high[i]);
         let [high, low] = two_sum(s, s_error + ((p_error - q_error) + mixed));
-        // Its product with c_k.
-        let [product, error] = two_product(high, c.high[k]);
+        (product.high[k], product.low[k]) = (high, low);
+    }
+    product
+}
+
+/// a·b, rounded once more.
+fn dot(a: &PairVector, b: &PairVector) -> f64 {
+    let mut products = [0.0; 3];
+    let mut tails = [0.0; 3];
+    for k in 0..3 {
+        let [product, error] = two_product(a.high[k], b.high[k]);
         products[k] = product;
-        tails[k] = error + (high * c.low[k] + low * c.high[k]);
+        tails[k] = error + (a.high[k] * b.low[k] + a.low[k] * b.high[k]);
     }
     let [s1, e1] = two_sum(products[0], products[1]);
     let [s2, e2] = two_sum(s1, products[2]);
-    let value = s2 + (((tails[0] + tails[1]) + tails[2]) + (e1 + e2));
-    // 2^52·64·u²·6 = 384·2^-54.
-    let bound = 384.0 / (1_u64 << 54) as f64 * (a.largest() * b.largest() * c.largest());
-    (value.abs() > bound).then_some(value)
+    s2 + (((tails[0] + tails[1]) + tails[2]) + (e1 + e2))
 }

@@ -42,6 +42,16 @@ impl View {
         }
     }
 
+    /// e.
+    pub(super) fn eye(&self) -> [f64; 3] {
+        self.eye
+    }
+
+    /// DX, DY and D0: the direction at (x, y) is D0 + x·DX + y·DY.
+    pub(super) fn lattice(&self) -> [[f64; 3]; 3] {
+        [self.dx, self.dy, self.d0]
+    }
+
     /// The ray through the sample of `pixel`. No operation rounds, by the camera's contract.
     pub(super) fn ray(&self, pixel: Pixel) -> Ray {
         let [mut x, mut y] = pixel.sample();

@@ -1,10 +1,12 @@
 //! The command line as typed.
 
 mod bench;
+mod cost;
 mod lobe;
 mod sheet;
 
 pub(super) use bench::BenchArguments;
+pub(super) use cost::CostArguments;
 pub(super) use lobe::{LobeArguments, SpecularWord};
 pub(super) use sheet::SheetArguments;
 
@@ -42,6 +44,8 @@ pub(super) enum Command {
     Explain(ExplainArguments),
     /// Time building, casting, rasterizing and shading; a wrong answer gets no time
     Bench(BenchArguments),
+    /// Price accuracy: each way to decide and to tessellate, its time against its errors
+    Cost(CostArguments),
     /// Lay several renders out in one labelled PNG
     Sheet(SheetArguments),
     /// Draw the goniometric diagram of a reflectance: its polar curves for one light

@@ -9,28 +9,44 @@ use super::{DIFFERENCE, OK, on_threads};
 use std::path::{Path, PathBuf};
 use truecast::bench::baseline::{Baseline, BaselineError};
 use truecast::bench::machine::Machine;
-use truecast::bench::report::{to_csv, to_json, to_table};
-use truecast::bench::{BenchOptions, Report, Subject, bench};
+use truecast::bench::peers::PeerError;
+use truecast::bench::report::{to_csv, to_drawing, to_json, to_table};
+use truecast::bench::{BenchError, Report, Subject, bench};
 use truecast::film::FilmError;
 use truecast::scene::{Overrides, Scene};
+use truecast::simd::SimdLevel;
 
 /// What a report can be written as.
 #[derive(Clone, Copy)]
 enum Format {
     Json,
     Csv,
+    Svg,
 }
 
 pub(super) fn run(arguments: &BenchArguments, writing: &Writing) -> Result<u8, Failure> {
     let targets = targets(&arguments.output)?;
-    let threads = on_threads(arguments.threads, rayon::current_num_threads)?;
+    let options = arguments.options();
+    let levels = match arguments.simd.is_empty() {
+        true => vec![SimdLevel::best()],
+        false => arguments.simd.clone(),
+    };
     let scenes = load(arguments)?;
+    let mut runs = Vec::new();
+    for (scene, name) in &scenes {
+        for &threads in &arguments.threads {
+            let count = on_threads(threads, rayon::current_num_threads)?;
+            for &simd in &levels {
+                runs.push((scene, Subject::new(name.clone(), scene, count, simd)));
+            }
+        }
+    }
     let machine = Machine::here();
     let baseline = arguments.baseline.as_deref().map(read_baseline).transpose()?;
     if let (Some(baseline), Some(path)) = (&baseline, &arguments.baseline) {
         // Before anything is timed.
-        for (_, subject) in &scenes {
-            baseline.admit(subject, threads).map_err(|error| unfit(path, &error))?;
+        for (_, subject) in &runs {
+            baseline.admit(subject).map_err(|error| unfit(path, &error))?;
         }
         if let (Some(old), Some(new)) = (baseline.cpu(), &machine.cpu)
             && old != new
@@ -42,31 +58,29 @@ pub(super) fn run(arguments: &BenchArguments, writing: &Writing) -> Result<u8, F
             )]);
         }
     }
-    let options = BenchOptions { rounds: arguments.rounds, ..BenchOptions::default() };
     let bar = Bar::new(arguments.quiet);
     let mut measured = Vec::new();
-    for (scene, subject) in scenes {
-        let outcome = on_threads(arguments.threads, || bench(&scene, subject, options, &bar));
+    for (scene, subject) in runs {
+        let outcome = on_threads(subject.threads, || bench(scene, subject, &options, &bar));
         bar.finish();
-        measured.push(outcome?.map_err(|error| Failure::Input(error.to_string()))?);
+        measured.push(outcome?.map_err(failure)?);
     }
     let comparison = match (&baseline, &arguments.baseline) {
         (Some(baseline), Some(path)) => {
             let mut all = Vec::new();
             for measured in &measured {
-                let compared = baseline.compare(measured, threads);
-                all.extend(compared.map_err(|error| unfit(path, &error))?);
+                all.extend(baseline.compare(measured).map_err(|error| unfit(path, &error))?);
             }
             Some(all)
         }
         _ => None,
     };
-    let report =
-        Report { machine, threads, rounds: arguments.rounds, scenes: measured, comparison };
+    let report = Report { machine, rounds: arguments.rounds, scenes: measured, comparison };
     for (path, format) in targets {
         let text = match format {
             Format::Json => format!("{:#}\n", to_json(&report)),
             Format::Csv => to_csv(&report),
+            Format::Svg => to_drawing(&report).to_svg(),
         };
         output::save(writing, path, text.as_bytes())?;
     }
@@ -85,8 +99,9 @@ fn targets(paths: &[PathBuf]) -> Result<Vec<(&Path, Format)>, Failure> {
         match extension.as_deref() {
             Some("json") => Ok(Format::Json),
             Some("csv") => Ok(Format::Csv),
+            Some("svg") => Ok(Format::Svg),
             _ => Err(Failure::usage(format!(
-                "{}: the name does not say what to write; end it in .json or .csv",
+                "{}: the name does not say what to write; end it in .json, .csv or .svg",
                 path.display()
             ))),
         }
@@ -99,24 +114,30 @@ fn targets(paths: &[PathBuf]) -> Result<Vec<(&Path, Format)>, Failure> {
     Ok(targets)
 }
 
-fn load(arguments: &BenchArguments) -> Result<Vec<(Scene, Subject)>, Failure> {
+fn load(arguments: &BenchArguments) -> Result<Vec<(Scene, String)>, Failure> {
     let overrides = Overrides { resolution: arguments.size, ..Overrides::default() };
     let mut scenes = Vec::new();
     for path in &arguments.scenes {
-        let scene = Scene::load(path, &overrides)?;
-        let subject = Subject::new(path.display().to_string(), &scene);
-        scenes.push((scene, subject));
+        scenes.push((Scene::load(path, &overrides)?, path.display().to_string()));
     }
     if scenes.is_empty() {
         let name = "default.toml";
         let scene = Scene::from_toml(DEFAULT_SCENE, Path::new(name), Path::new("."), &overrides)?;
-        let subject = Subject::new(name.to_owned(), &scene);
-        scenes.push((scene, subject));
+        scenes.push((scene, name.to_owned()));
     }
     if !arguments.quiet {
         scenes.iter().for_each(|(scene, _)| output::print_warnings(&scene.warnings));
     }
     Ok(scenes)
+}
+
+fn failure(error: BenchError) -> Failure {
+    match error {
+        BenchError::Peer(PeerError::Embree { path, reason }) => {
+            FilmError::Read { path: path.into(), reason }.into()
+        }
+        error => Failure::Input(error.to_string()),
+    }
 }
 
 fn read_baseline(path: &Path) -> Result<Baseline, Failure> {

@@ -14,6 +14,7 @@ use crate::mesh::{TriangleId, TriangleMesh};
 use crate::mutant::{self, Mutant};
 use crate::pixel::Pixel;
 use dashu_int::IBig;
+use std::cmp::Ordering;
 use std::collections::HashMap;
 use std::rc::Rc;
 
@@ -153,6 +154,45 @@ fn cross(a: &[IBig; 3], b: &[IBig; 3]) -> [IBig; 3] {
     [&a[1] * &b[2] - &a[2] * &b[1], &a[2] * &b[0] - &a[0] * &b[2], &a[0] * &b[1] - &a[1] * &b[0]]
 }
 
+/// Most bits of a coordinate for which [`same_plane`] works in i128. Differences have 56 bits then,
+/// a normal's components 113, and the determinant is below 2^171.
+const SHORT_BITS: i64 = 55;
+
+/// Below this a computed determinant is one below 2^128: each of its three products rounds three
+/// times, and two sums round, in all by less than 3·2^169·6·2^-53 < 2^121.
+const BELOW_MODULUS: f64 = (1_u128 << 127) as f64;
+
+/// Whether two triangles certainly lie in one plane: the corners of the one have determinant 0 with
+/// those of the other. `false` also where the corners' numbers are too long for i128.
+///
+/// Triangles with V ≠ 0 have corners that are not on one line, so that planes are what is compared.
+fn same_plane(mesh: &TriangleMesh, a: TriangleId, b: TriangleId) -> bool {
+    let corners = [mesh.triangle(a), mesh.triangle(b)]
+        .map(|corners| corners.map(|v| v.map(|c| Dyadic::new(f64::from(c)))));
+    let numbers = corners.as_flattened().as_flattened();
+    let unit = numbers.iter().map(|c| c.exponent).min().unwrap_or(i64::MAX);
+    let short =
+        |c: &Dyadic| c.in_short_units(unit).filter(|value| value.unsigned_abs() >> SHORT_BITS == 0);
+    let mut short_corners = [[0_i128; 3]; 6];
+    for (number, short_number) in numbers.iter().zip(short_corners.as_flattened_mut()) {
+        match short(number) {
+            Some(value) => *short_number = value,
+            None => return false,
+        }
+    }
+    let [a0, a1, a2, others @ ..] = short_corners;
+    let minus = |p: [i128; 3]| [p[0] - a0[0], p[1] - a0[1], p[2] - a0[2]];
+    let (p, q) = (minus(a1), minus(a2));
+    let normal = [p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]];
+    others.into_iter().map(minus).all(|r| {
+        // 0 modulo 2^128, and below 2^128.
+        let product = |k: usize| normal[k].wrapping_mul(r[k]);
+        let rounded = |k: usize| normal[k] as f64 * r[k] as f64;
+        product(0).wrapping_add(product(1)).wrapping_add(product(2)) == 0
+            && (rounded(0) + rounded(1) + rounded(2)).abs() < BELOW_MODULUS
+    })
+}
+
 /// Exact triangles that one tile has asked for, and the depth rows of its present candidate.
 pub(super) struct ExactStage<'a> {
     plane: &'a ImagePlane,
@@ -197,6 +237,9 @@ impl<'a> ExactStage<'a> {
             self.depth_rows.clear();
         }
         if !self.depth_rows.contains_key(&nearest) {
+            if same_plane(self.mesh, candidate, nearest) {
+                return Some(DepthOrder { at_sample: Ordering::Equal, moved: Ordering::Equal });
+            }
             let row = self.triangle(candidate)?.depth_row(self.triangle(nearest)?.as_ref());
             self.depth_rows.insert(nearest, row);
         }

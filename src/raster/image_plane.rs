@@ -4,7 +4,7 @@
 //! With X = adj(P)·(v − e), X = det(P)·(x·w, y·w, w): the vertex in the image, never divided.
 //! Only the camera is treated here; vertices and edges are `rows` (f64) and `exact` (integers).
 
-use super::dyadic::{Dyadic, sign};
+use super::dyadic::{Dyadic, Scaled, sign};
 use crate::mutant::{self, Mutant};
 use crate::scene::camera::PinholeCamera;
 use dashu_int::IBig;
@@ -77,6 +77,17 @@ impl ImagePlane {
                 eye: camera.eye().map(Dyadic::new),
             },
         }
+    }
+
+    /// t·(plane row)/|V| for the f64 rows over `adjugate`: 2^-`lattice_exponent`/|det(P)|, because t
+    /// is in units of the lattice's directions.
+    pub(super) fn ray_parameter_per_depth(&self) -> f64 {
+        let determinant = Scaled::from_integer(&self.exact.determinant);
+        Scaled {
+            mantissa: 1.0 / determinant.mantissa.abs(),
+            exponent: -determinant.exponent - self.exact.lattice_exponent,
+        }
+        .value()
     }
 }
 

@@ -7,15 +7,15 @@
 use super::TILE_SIDE;
 use super::bins::Bins;
 use super::bounds::Region;
+use super::coverage::{Coverage, Fragment};
 use super::exact::ExactStage;
 use super::image_plane::ImagePlane;
 use super::resolve::answer;
-use super::rows::TriangleRows;
-use super::tile::{Fragment, Keep, Tile};
+use super::scan::scan;
 use crate::mesh::TriangleId;
 use crate::pixel::{Pixel, Window, for_each_tile};
 use crate::scene::Scene;
-use crate::visibility::{Layers, VisibilityBuffer, Visible};
+use crate::visibility::{Layers, LevelCounts, VisibilityBuffer, Visible};
 use std::cmp::Ordering;
 
 /// Whether nothing is seen through a triangle.
@@ -64,16 +64,15 @@ struct Collecting {
     fragments: Vec<Fragment>,
 }
 
-impl Keep for Collected<'_> {
-    fn keep(tile: &mut Tile<'_, Self>, index: usize, _: &TriangleRows, fragment: Fragment) {
-        let opaque = tile.kept.opaque;
-        let pixel = &mut tile.kept.pixels[index];
+impl Collected<'_> {
+    fn keep(&mut self, index: usize, fragment: Fragment) {
+        let pixel = &mut self.pixels[index];
         let [low, high] = fragment.inverse_depth;
         // Strictly behind an opaque fragment: no layer, and no tie of one.
         if !pixel.is_wanted || high < pixel.opaque_inverse_depth {
             return;
         }
-        if opaque(fragment.triangle) {
+        if (self.opaque)(fragment.triangle) {
             pixel.opaque_inverse_depth = pixel.opaque_inverse_depth.max(low);
         }
         pixel.fragments.push(fragment);
@@ -93,12 +92,13 @@ fn rasterize_tile<'a>(
         opaque_inverse_depth: f64::NEG_INFINITY,
         fragments: Vec::new(),
     };
-    let collected = Collected { opaque, pixels: wanted.into_iter().map(collecting).collect() };
-    let mut tile = Tile::new(window, exact, collected);
+    let mut kept = Collected { opaque, pixels: wanted.into_iter().map(collecting).collect() };
+    let (mut exact, mut levels) = (exact, LevelCounts::default());
     for candidate in bins.candidates(window) {
-        tile.scan(&candidate);
+        scan(window, &candidate, &mut exact, &mut levels, |pixel, fragment| {
+            kept.keep(window.index(pixel), fragment);
+        });
     }
-    let Tile { mut exact, kept, .. } = tile;
     let pixels = window.pixels().zip(kept.pixels);
     pixels.map(|(pixel, found)| behind_nearest(&mut exact, opaque, pixel, found)).collect()
 }
@@ -127,7 +127,8 @@ fn behind_nearest(
     behind
         .filter_map(|fragment| {
             let triangle = exact.triangle(fragment.triangle)?;
-            Some(answer(pixel, fragment, &triangle))
+            let covered = Coverage { exact: fragment.exact, on_edge: fragment.on_edge };
+            Some(answer(pixel, fragment.triangle, covered, fragment.same_depth, &triangle))
         })
         .collect()
 }

@@ -15,11 +15,11 @@ const MOST_TILES: u64 = 64;
 /// The tiles of a window, as `Window::tiles` cuts it: aligned to multiples of the side.
 #[derive(Clone, Copy)]
 pub(super) struct Grid {
-    side: u32,
-    first_column: u32,
-    first_row: u32,
-    columns: u32,
-    rows: u32,
+    pub(super) side: u32,
+    pub(super) first_column: u32,
+    pub(super) first_row: u32,
+    pub(super) columns: u32,
+    pub(super) rows: u32,
 }
 
 impl Grid {
@@ -34,7 +34,13 @@ impl Grid {
         }
     }
 
-    fn index(self, tile: Window) -> usize {
+    /// Number of tiles.
+    pub(super) fn len(self) -> usize {
+        self.columns as usize * self.rows as usize
+    }
+
+    /// A tile's position, row by row of tiles.
+    pub(super) fn index(self, tile: Window) -> usize {
         let column = tile.x0() / self.side - self.first_column;
         let row = tile.y0() / self.side - self.first_row;
         row as usize * self.columns as usize + column as usize
@@ -94,7 +100,7 @@ impl TileLists {
     /// Sorts numbered things, which come in ascending order, into the tiles that they meet.
     pub(super) fn new(grid: Grid, placed: impl Iterator<Item = (u32, Tiles)> + Clone) -> Self {
         // Count the things of each tile, one slot late, and turn counts into starts.
-        let mut starts = vec![0_usize; grid.columns as usize * grid.rows as usize + 1];
+        let mut starts = vec![0_usize; grid.len() + 1];
         for (_, tiles) in placed.clone().filter(|(_, tiles)| !tiles.are_many()) {
             grid.indices(tiles).for_each(|tile| starts[tile + 1] += 1);
         }

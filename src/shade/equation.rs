@@ -28,7 +28,7 @@ use crate::scene::switches::{BacklitSpecular, Rules};
 /// Below this |N·L| the side of the terminator is in doubt: N and L are each unit and right to a
 /// few 2^-52 when their inputs are, and two paths' weights differ by 2^-48 = 4e-15; 1e-13 leaves
 /// room for corner normals that turn quickly.
-const TERMINATOR: f64 = 1e-13;
+pub(super) const TERMINATOR: f64 = 1e-13;
 
 /// What is known beforehand of the lights at a point.
 #[derive(Clone, Copy)]
@@ -120,7 +120,7 @@ fn light_up<const E: u8, W: Watch>(
                 return;
             };
             term.distance = Some(way.length);
-            let n_dot_l = vector::dot(geometry.normal, way.scaled) / way.scaled_length;
+            let n_dot_l = vector::dot(geometry.normal, way.scaled) * way.inverse();
             (way.unit(), n_dot_l, Some((at, way.length)))
         }
         Origin::Position(_) | Origin::Hemisphere(_) | Origin::Nowhere => return,

@@ -4,13 +4,16 @@
 use super::coefficients::Coefficients;
 use super::effects::Effects;
 use super::kernel_effects::KernelEffects;
+use super::lanes::{Cones, Lanes};
 use super::lights::{self, Origin, PreparedLight, is_black};
 use super::method::Method;
 use super::watch::Watch;
 use crate::pixel::Pixel;
 use crate::scene::Scene;
 use crate::scene::switches::Rules;
+use crate::simd::SimdLevel;
 use crate::visibility::Visible;
+use fearless_simd::Level;
 use std::cell::RefCell;
 
 /// Says whether an opaque surface hides the light at a position of the scene's list from the point
@@ -36,6 +39,12 @@ pub(super) struct Frame<'a> {
     pub(super) shadowed: bool,
     /// Whether it is worth asking which lights reach a run of pixels.
     pub(super) selects_lights: bool,
+    /// The cones of `lights`.
+    pub(super) cones: Cones,
+    /// The instruction set of what is vectorised.
+    pub(super) level: Level,
+    /// Whether several pixels are shaded at once.
+    pub(super) lanes: Option<Lanes>,
     occlusion: Option<Occlusion<'a>>,
 }
 
@@ -56,13 +65,14 @@ impl<'a> Frame<'a> {
         let shadowed = lights.iter().any(|light| light.shadows);
         let methods = Method::of_objects(scene);
         let has_cone = |light: &PreparedLight| match &light.origin {
-            Origin::Position(at) => at.cone.as_ref().is_some_and(|cone| cone.cutoff.is_some()),
+            Origin::Position(at) => at.cone.as_ref().is_some_and(|cone| cone.sine_cosine.is_some()),
             _ => false,
         };
         // One cone is tested as quickly as a run's bounds are found; and directions that are mixed
         // from the corners are tested before the cone.
         let cones = lights.iter().filter(|light| has_cone(light)).count();
         let selects_lights = cones > 1 && !rules.interpolate_vectors;
+        let cones = Cones::of(&lights);
         Self {
             scene,
             rules,
@@ -72,8 +82,18 @@ impl<'a> Frame<'a> {
             directed,
             shadowed,
             selects_lights,
+            cones,
+            level: Level::baseline(),
+            lanes: None,
             occlusion,
         }
+    }
+
+    /// The same frame with several pixels shaded at once where that is possible.
+    pub(super) fn in_lanes(self, level: SimdLevel) -> Self {
+        let level = level.dispatched();
+        let lanes = Lanes::of(self.scene, self.rules, &self.lights, level);
+        Self { level, lanes, ..self }
     }
 
     /// Whoever answers for shadows while a row is shaded.

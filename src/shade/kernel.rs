@@ -10,8 +10,9 @@ use super::equation::{Lighting, radiance_of};
 use super::frame::{Frame, RowAsker, is_hidden};
 use super::geometry::{Seen, geometry_at_pixel};
 use super::kernel_effects::KernelEffects;
+use super::lanes::{self, Run, Stretch};
 use super::method::Method;
-use super::reach::{self, Bounds, RUN};
+use super::reach::{Bounds, RUN};
 use super::surface;
 use super::watch::{Note, Watch};
 use super::weights::{mix_colors, weights};
@@ -56,21 +57,40 @@ fn shade_row<const E: u8, W: Watch>(
 ) {
     let mut memo = Memo::default();
     let asker = frame.asker();
-    let mut reaches = vec![true; if frame.selects_lights { frame.lights.len() } else { 0 }];
+    let reaching = if frame.selects_lights { frame.lights.len() } else { 0 };
+    let mut reaches = vec![true; reaching];
     let mut positions = [None; RUN];
+    let in_lanes = frame.lanes.as_ref().filter(|_| W::KNOWS_LANES);
+    let mut run = in_lanes.map(|lanes| (lanes, Run::new(frame)));
     let runs = visible.chunks(RUN).zip(radiance.chunks_mut(RUN));
     for (first, (visible, radiance)) in (window.x0()..).step_by(RUN).zip(runs) {
-        if frame.selects_lights {
+        // Shade at once what can be, and leave the rest to the scalar kernel.
+        let done = run.as_mut().map_or(0, |(lanes, run)| {
+            let stretch = Stretch { first: Pixel { x: first, y }, visible };
+            lanes::shade_run(frame, lanes, &stretch, run, &asker, radiance)
+        });
+        if u64::from(done) + 1 == 1 << visible.len() {
+            continue;
+        }
+        // Lights are chosen for whole runs only: for what lanes left over, all are asked.
+        let mut chosen: &[bool] = &[];
+        if frame.selects_lights && done == 0 {
             let bounds = bounds(frame, first, y, visible, &mut positions);
-            reach::mark(&frame.lights, &bounds, &mut reaches);
+            frame.cones.mark(frame.level, &bounds, &mut reaches);
+            chosen = &reaches;
+        } else {
+            positions = [None; RUN];
         }
         let pixels = (first..).zip(&positions).zip(visible).zip(radiance);
-        for (((x, position), visible), out) in pixels {
+        for (index, (((x, position), visible), out)) in pixels.enumerate() {
+            if done >> index & 1 != 0 {
+                continue;
+            }
             *out = match visible {
                 Some(visible) => {
                     let pixel = Pixel { x, y };
                     let seen = Seen { pixel, visible, position: *position };
-                    shade_pixel::<E, W>(frame, &seen, (&reaches, &asker), &mut memo, watch)
+                    shade_pixel::<E, W>(frame, &seen, (chosen, &asker), &mut memo, watch)
                 }
                 None => frame.scene.background,
             };

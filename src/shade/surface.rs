@@ -15,7 +15,7 @@ use crate::visibility::{Facing, Visible};
 /// Below this |Σ b·n|², for unit corner normals n, the interpolated normal has cancelled: its
 /// direction is an accident of the weights (at 1e-6 of a unit length, weights that are good to
 /// 2^-48 still give it to 4e-9; far below, to nothing), and the face normal is used instead.
-const CANCELLED_SQUARED: f64 = 1e-12;
+pub(super) const CANCELLED_SQUARED: f64 = 1e-12;
 
 /// A point of a visible surface, as shading sees it. Lengths in world units, f64.
 #[derive(Clone, Copy, Debug, PartialEq)]

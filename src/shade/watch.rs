@@ -30,6 +30,9 @@ pub(super) enum Note {
 pub(super) trait Watch {
     /// Whether terms are evaluated that no colour calls for.
     const UNGATED: bool = false;
+    /// Whether it may be told of doubtful cases alone, so that several pixels without any are shaded
+    /// at once.
+    const KNOWS_LANES: bool = false;
     /// A doubtful case.
     #[inline(always)]
     fn note(&mut self, _note: Note) {}
@@ -83,6 +86,8 @@ impl Notes {
 }
 
 impl Watch for Notes {
+    const KNOWS_LANES: bool = true;
+
     #[inline]
     fn note(&mut self, note: Note) {
         *match note {

@@ -1,5 +1,8 @@
 //! The benchmark: its report's fields, no time for a wrong kernel, and baselines on the command line.
 
+#[cfg(any(feature = "peers", feature = "embree"))]
+mod peers;
+
 use crate::support::program::truecast;
 use serde_json::Value;
 use std::fs;
@@ -7,7 +10,7 @@ use std::path::{Path, PathBuf};
 use tempfile::TempDir;
 use truecast::bench::reference::Reference;
 use truecast::bench::rounds::{Row, take_turns};
-use truecast::bench::workload::{Amount, Unit, Variant};
+use truecast::bench::workload::{Variant, Work, light_of};
 use truecast::mesh::TriangleId;
 use truecast::pixel::Resolution;
 use truecast::raster::rasterize;
@@ -37,13 +40,15 @@ fn bench_of(scene: &str, folder: &Path, more: &[&str]) -> (i32, String, String) 
 #[test]
 fn the_report_has_its_fields_and_positive_times() {
     let folder = TempDir::new().unwrap();
-    let (status, stdout, stderr) = bench(folder.path(), &["--json", "-o", "a.csv", "-o", "a.json"]);
+    let (status, stdout, stderr) =
+        bench(folder.path(), &["--json", "-o", "a.csv", "-o", "a.json", "-o", "a.svg"]);
     assert_eq!((status, &*stderr), (0, ""));
     let report: Value = serde_json::from_str(&stdout).unwrap();
-    assert_eq!(report["schema"], "truecast/bench/1");
-    assert_eq!((&report["threads"], &report["rounds"]), (&1.into(), &2.into()));
+    assert_eq!(report["schema"], "truecast/bench/2");
     assert!(report["machine"]["logical_cores"].as_u64().unwrap() > 0);
+    assert!(report["machine"]["rustc"].as_str().unwrap().starts_with("rustc 1."));
     let scene = &report["scenes"][0];
+    assert_eq!((&scene["threads"], &report["rounds"]), (&1.into(), &2.into()));
     assert_eq!((&scene["width"], &scene["height"]), (&32.into(), &18.into()));
     assert_eq!(scene["audited_pixels"], 200);
     assert_eq!(scene["disputed_pixels"], 0);
@@ -59,9 +64,16 @@ fn the_report_has_its_fields_and_positive_times() {
         let is_checked = !name.starts_with("build") && name != "shade";
         let wrong = if is_checked { Value::from(0) } else { Value::Null };
         assert_eq!(row["wrong_pixels"], wrong, "{name}");
-        let counts_decisions = name.starts_with("cast") || name.starts_with("raster");
+        let counts_decisions =
+            row["program"].is_null() && (name.starts_with("cast") || name.starts_with("raster"));
         assert_eq!(row["decisions"].is_object(), counts_decisions, "{name}");
     }
+    let svg = fs::read_to_string(folder.path().join("a.svg")).unwrap();
+    for row in rows.iter().filter(|row| row["program"].is_null()) {
+        assert!(svg.contains(row["name"].as_str().unwrap()), "{row}");
+    }
+    // A bar per row.
+    assert_eq!(svg.matches("<polygon").count(), rows.len());
     let csv = fs::read_to_string(folder.path().join("a.csv")).unwrap();
     assert_eq!(csv.lines().count(), 1 + rows.len());
     let columns = csv.lines().next().unwrap().split(',').count();
@@ -113,11 +125,35 @@ fn what_cannot_be_compared_or_measured_is_refused() {
     refused(&["--baseline", &same, "--size", "16x9"], 3, "give --size 32x18");
     refused(&["--baseline", &same, "--threads", "2"], 3, "give --threads 1");
     refused(&["--baseline", "missing.json"], 4, "missing.json");
-    refused(&["-o", "report.svg"], 2, "end it in .json or .csv");
+    refused(&["-o", "report.txt"], 2, "end it in .json, .csv or .svg");
+    refused(&["-o", "missing/report.svg"], 4, "missing");
     refused(&["--rounds", "0"], 2, "expected a whole number");
     let (status, _, stderr) = bench_of("iteration-1.toml", folder.path(), &["--baseline", &same]);
     assert_eq!(status, 3, "{stderr}");
     assert!(stderr.contains("was not measured"), "{stderr}");
+}
+
+#[test]
+fn the_workload_is_what_was_asked_for() {
+    let folder = TempDir::new().unwrap();
+    let more = ["--json", "--work", "closest,build", "--preset", "fast,medium", "--threads", "1,2"];
+    let (status, stdout, stderr) = bench(folder.path(), &more);
+    assert_eq!(status, 0, "{stderr}");
+    let report: Value = serde_json::from_str(&stdout).unwrap();
+    let scenes = report["scenes"].as_array().unwrap();
+    let threads: Vec<_> = scenes.iter().map(|scene| scene["threads"].as_u64().unwrap()).collect();
+    assert_eq!(threads, [1, 2]);
+    for scene in scenes {
+        let rows = scene["rows"].as_array().unwrap().iter().filter(|row| row["program"].is_null());
+        let mut names: Vec<_> = rows.map(|row| row["name"].as_str().unwrap()).collect();
+        names.sort_unstable();
+        assert_eq!(names, ["build fast", "build medium", "cast fast", "cast medium"]);
+    }
+    for (option, word) in [("--work", "shades"), ("--preset", "slowest"), ("--simd", "avx")] {
+        let (status, stdout, stderr) = bench(folder.path(), &[option, word]);
+        assert_eq!((status, &*stdout), (2, ""), "{stderr}");
+        assert!(stderr.contains(word), "{stderr}");
+    }
 }
 
 /// One triangle, and a camera that looks away from it.
@@ -154,11 +190,10 @@ fn rows_of(changes: &[fn(&mut VisibilityBuffer)], counting: Counting) -> Vec<Row
     let both = [answer(Counting::All), answer(Counting::All)];
     let reference = Reference::of(&scene, &both, 50, &Unwatched);
     assert!(reference.covered_pixels() > 0);
-    let amount = Amount { count: window.len(), unit: Unit::Pixels };
     let variants: Vec<Variant<'_>> = changes
         .iter()
         .map(|change| {
-            Variant::visibility("kernel", amount, move || {
+            Variant::visibility("kernel", Work::Raster, window.len(), move || {
                 let mut buffer = answer(counting);
                 change(&mut buffer);
                 buffer
@@ -209,4 +244,22 @@ fn both_paths_wrong_alike_are_found_by_the_arbiter() {
     let reference = Reference::of(&scene, &[wrong, right.clone()], 0, &Unwatched);
     assert_eq!(reference.disputed_pixels(), right.covered_pixels());
     assert_eq!(reference.wrong_pixels(&right), 0);
+}
+
+#[test]
+fn wrong_shadows_are_found_by_exact_arithmetic() {
+    let overrides = Overrides { resolution: Resolution::new(32, 18), ..Overrides::default() };
+    let scene = Scene::load(&scene_file("effect-shadows.toml"), &overrides).unwrap();
+    let window = scene.camera.resolution().window();
+    let buffer = rasterize(&scene, window, Counting::Nearest, &|| ());
+    let light = light_of(&scene).unwrap();
+    let both = [buffer.clone(), buffer];
+    let reference =
+        Reference::of(&scene, &both, 0, &Unwatched).with_shadows(&scene, light, window.len());
+    // Every visible point is either lit or in shadow, and the scene has both.
+    let count = |answer| reference.wrong_shadows(&vec![answer; window.len()]);
+    let (lit, dark) = (count(true), count(false));
+    assert!(lit > 0 && dark > 0, "{lit} {dark}");
+    assert_eq!(lit + dark, reference.covered_pixels());
+    assert_eq!(reference.wrong_shadows(&[]), reference.covered_pixels());
 }

@@ -7,7 +7,7 @@ mod golden;
 use crate::support::closed::sphere;
 use crate::support::scenes::{Sequence, Triangle, single_ray};
 use truecast::accel::{Accelerator, BuildPreset};
-use truecast::cast::{cast, cast_with_tiles};
+use truecast::cast::{CastOptions, cast, cast_with};
 use truecast::pixel::{Resolution, Window};
 use truecast::scene::Scene;
 use truecast::scene::camera::PinholeCamera;
@@ -58,6 +58,17 @@ fn standard_camera(f: f64) -> PinholeCamera {
 
 fn all(scene: &Scene, accelerator: &Accelerator) -> VisibilityBuffer {
     cast(scene, accelerator, scene.camera.resolution().window(), Counting::All, &|| ())
+}
+
+fn cast_in(
+    scene: &Scene,
+    accelerator: &Accelerator,
+    window: Window,
+    counting: Counting,
+    side: u32,
+) -> VisibilityBuffer {
+    let options = CastOptions { side, ..CastOptions::default() };
+    cast_with(scene, accelerator, window, counting, options, &|| ())
 }
 
 fn nearest(scene: &Scene, accelerator: &Accelerator) -> VisibilityBuffer {

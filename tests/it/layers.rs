@@ -82,9 +82,12 @@ const ALLOWED: &[Allowed] = &[
             "visibility",
             "film",
             "accel",
+            "cast",
+            "raster",
             "exact",
             "shade",
             "render",
+            "drawing",
         ],
     ),
     (
@@ -102,6 +105,26 @@ const ALLOWED: &[Allowed] = &[
             "exact",
             "shade",
             "render",
+        ],
+    ),
+    (
+        "cost",
+        &[
+            "pixel",
+            "color",
+            "mesh",
+            "drawing",
+            "statistics",
+            "simd",
+            "scene",
+            "visibility",
+            "film",
+            "accel",
+            "cast",
+            "raster",
+            "shade",
+            "render",
+            "bench",
         ],
     ),
     ("sheet", &["pixel", "color", "drawing", "scene", "film", "render"]),
@@ -205,4 +228,18 @@ fn the_three_answerers_do_not_know_each_other() {
         let is_downward = allowed.iter().all(|name| *name == "*" || below.contains(name));
         assert!(is_downward, "{module}");
     }
+}
+
+/// The file that speaks to a C library, if the program is built with it.
+const UNSAFE: &str = "bench/peers/embree_sys.rs";
+
+#[test]
+fn unsafe_stands_in_one_file() {
+    let speaks = |text: &str| {
+        let tokens = tokens::tokens(text);
+        tokens.iter().any(|token| token.is_word("unsafe") || token.is_word("unsafe_code"))
+    };
+    let files: Vec<PathBuf> =
+        sources().into_iter().filter(|(_, t)| speaks(t)).map(|f| f.0).collect();
+    assert_eq!(files, [Path::new(UNSAFE)]);
 }

@@ -6,6 +6,7 @@
 
 mod extremes;
 mod hemisphere;
+mod lanes;
 mod lights;
 mod names;
 pub(crate) mod neutrality;

@@ -38,6 +38,8 @@ mod light_frames;
 mod lighting;
 // Presets of materials, and surfaces that no light touches.
 mod material_presets;
+// What accuracy costs: prices, their report, what has none.
+mod cost;
 // Goniometric diagrams: curves by an independent formula, SVG and PNG of the same marks.
 mod lobe;
 // OBJ and MTL, one test per misreading.

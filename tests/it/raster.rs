@@ -3,6 +3,7 @@
 mod brute;
 mod chaos;
 mod golden;
+mod levels;
 
 use brute::Brute;
 use dashu_ratio::RBig;

@@ -31,6 +31,7 @@ pub(crate) fn bench(name: &str) -> Bench {
         "slanted one ulp apart" => slanted_one_ulp_apart(),
         "long coplanar" => vec![long_coplanar()],
         "fold" => vec![fold()],
+        "near after a tie" => vec![near_after_a_tie(1.0), near_after_a_tie(-1.0)],
         "corner rays" => corner_rays(),
         "box beside the ray" => vec![box_beside_the_ray()],
         "ray in a box face" => vec![ray_in_a_box_face()],
@@ -254,6 +255,29 @@ fn long_coplanar() -> Scene {
 fn fold() -> Scene {
     let (top, bottom) = ([0.0, -9.0, 8.0], [0.0, 9.0, 8.0]);
     standard_scene(&[[top, bottom, [6.0, 0.0, 9.0]], [top, bottom, [6.0, 0.0, 7.0]]])
+}
+
+/// Two triangles in one plane, and one before them; seen along an axis or against it, it comes later
+/// in space.
+fn near_after_a_tie(forwards: f32) -> Scene {
+    let at = |z: f32, corners: [[f32; 2]; 3]| corners.map(|[x, y]| [x, y, forwards * z]);
+    let resolution = Resolution::new(17, 17).unwrap();
+    let camera = PinholeCamera::exact(
+        resolution,
+        [0.0; 3],
+        [-8.5, -8.5, f64::from(8.0 * forwards)],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+    )
+    .unwrap();
+    Scene::from_triangles(
+        camera,
+        &[
+            at(8.0, [[-6.25, -6.25], [6.25, -6.25], [-6.25, 6.25]]),
+            at(8.0, [[-6.25, -6.25], [6.5, -6.25], [-6.25, 6.75]]),
+            at(4.0, [[-2.25, -2.25], [3.25, -2.25], [-2.25, 3.25]]),
+        ],
+    )
 }
 
 /// H56: rays that meet a triangle in a corner, which is all that they meet of its box: they leave

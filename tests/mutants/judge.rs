@@ -2,8 +2,8 @@
 
 use std::fmt;
 use truecast::accel::{Accelerator, BuildPreset};
-use truecast::cast::cast_with_tiles;
 use truecast::cast::shadow::ShadowCaster;
+use truecast::cast::{CastOptions, cast_with};
 use truecast::exact::{Answer, Arbiter};
 use truecast::pixel::Pixel;
 use truecast::raster::rasterize_in_tiles;
@@ -107,13 +107,15 @@ impl Judged {
                     .into_iter()
                     .zip(TILE_SIDES)
                     .map(|(counting, side)| {
-                        cast_with_tiles(scene, &tree, window, counting, &|| (), side)
+                        let options = CastOptions { side, ..CastOptions::default() };
+                        cast_with(scene, &tree, window, counting, options, &|| ())
                     })
                     .collect()
             }
-            Path::Raster => TILE_SIDES
+            Path::Raster => [Counting::All, Counting::Nearest]
                 .into_iter()
-                .map(|side| rasterize_in_tiles(scene, window, Counting::All, side, &|| ()))
+                .zip(TILE_SIDES)
+                .map(|(counting, side)| rasterize_in_tiles(scene, window, counting, side, &|| ()))
                 .collect(),
             Path::Exact => {
                 let found = answers(scene);

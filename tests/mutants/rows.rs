@@ -81,6 +81,11 @@ pub(crate) const ROWS: &[Row] = &[
     row(Mutant::ShortBins, RASTER, "H84 grid_exact"),
     row(Mutant::TileCorner, RASTER, "H06 topleft_upper"),
     row(Mutant::ClosedEdges, RASTER, "H03 grid_exact"),
+    // Rays that walk together.
+    row(Mutant::BelievedRows, CAST, "H03 grid_exact"),
+    row(Mutant::NearerBlocks, CAST, "H23 long coplanar"),
+    row(Mutant::StaleTies, CAST, "H22 near after a tie"),
+    row(Mutant::TightCone, CAST, "H16 aimed rays"),
     // What is reported.
     row(Mutant::ShiftedWeights, ALL, "H06 topleft_upper"),
     row(Mutant::UnmarkedTies, ALL, "H06 topleft_upper"),

@@ -18,7 +18,8 @@
 //! handled as in the parent module. Any other gets NaN, for which `larger` and `smaller` leave the
 //! bound as it is: the axis constrains nothing, and the worst that happens is that all is visited.
 
-use super::{MeetsBoxes, larger, smaller};
+use super::{MeetsBoxes, Planes, larger, smaller};
+use fearless_simd::{Simd, SimdBase, f64x8};
 
 /// κ = 1 + 16u, u = 2^-53: see the module's derivation.
 const PADDING: f64 = 1.0 + 8.0 * f64::EPSILON;
@@ -71,18 +72,19 @@ impl Segment {
 impl MeetsBoxes for Segment {
     /// Far is at most the reach of the segment.
     #[inline(always)]
-    fn meet(&self, planes: &[[[f32; 2]; 3]; 2]) -> [[f64; 2]; 2] {
-        let mut near = [0.0; 2];
-        let mut far = [f64::INFINITY; 2];
-        for (axis, &reciprocal) in self.reciprocal.iter().enumerate() {
+    fn meet<S: Simd>(&self, simd: S, planes: &Planes<S>) -> [f64x8<S>; 2] {
+        let mut near = f64x8::splat(simd, 0.0);
+        let mut far = f64x8::splat(simd, f64::INFINITY);
+        for axis in 0..3 {
             let side = self.near_side[axis] & 1;
             let (first, last) = (planes[side][axis], planes[1 - side][axis]);
-            let [enter, leave] = [self.origin[0][axis], self.origin[1][axis]];
-            for child in 0..2 {
-                near[child] = larger((f64::from(first[child]) - enter) * reciprocal, near[child]);
-                far[child] = smaller((f64::from(last[child]) - leave) * reciprocal, far[child]);
-            }
+            let enter = f64x8::splat(simd, self.origin[0][axis]);
+            let leave = f64x8::splat(simd, self.origin[1][axis]);
+            let reciprocal = f64x8::splat(simd, self.reciprocal[axis]);
+            near = larger((first - enter) * reciprocal, near);
+            far = smaller((last - leave) * reciprocal, far);
         }
-        [near, far.map(|far| smaller(far * PADDING + UNDERFLOW, self.reach))]
+        let far = far * f64x8::splat(simd, PADDING) + f64x8::splat(simd, UNDERFLOW);
+        [near, smaller(far, f64x8::splat(simd, self.reach))]
     }
 }

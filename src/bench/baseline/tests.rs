@@ -3,17 +3,20 @@
 use super::super::machine::Machine;
 use super::super::report::to_json;
 use super::super::rounds::Row;
-use super::super::workload::{Amount, Unit};
+use super::super::workload::Work;
 use super::super::{Measured, Report, Subject};
 use super::{Baseline, BaselineError};
 use crate::pixel::Resolution;
+use crate::simd::SimdLevel;
 use crate::statistics::Statistics;
 
 /// A row of this median and deviation in seconds; no median is a wrong answer.
 fn row(name: &str, time: Option<[f64; 2]>) -> Row {
     Row {
         name: name.to_owned(),
-        amount: Amount { count: 12, unit: Unit::Rays },
+        work: Work::Closest,
+        amount: Work::Closest.of(12),
+        program: None,
         wrong_pixels: Some(usize::from(time.is_none())),
         times: time.map(|[median, deviation]| Statistics {
             n: 9,
@@ -32,6 +35,8 @@ fn measured(rows: Vec<Row>) -> Measured {
             name: "a.toml".to_owned(),
             digest: "d1".to_owned(),
             resolution: Resolution::new(4, 3).unwrap(),
+            threads: 2,
+            simd: SimdLevel::Avx2,
         },
         triangles: 1,
         covered_pixels: 5,
@@ -39,14 +44,20 @@ fn measured(rows: Vec<Row>) -> Measured {
         audited_pixels: 12,
         trees: Vec::new(),
         rows,
+        left_out: Vec::new(),
     }
 }
 
 /// What a report of these rows on two threads becomes as a baseline.
 fn baseline(rows: Vec<Row>) -> Baseline {
     let report = Report {
-        machine: Machine { logical_cores: Some(2), cpu: None, version: "0" },
-        threads: 2,
+        machine: Machine {
+            logical_cores: Some(2),
+            cpu: None,
+            version: "0",
+            rustc: None,
+            commit: None,
+        },
         rounds: 9,
         scenes: vec![measured(rows)],
         comparison: None,
@@ -75,7 +86,7 @@ fn slower_beyond_noise_and_nothing_else() {
         row("is wrong", None),
         row("is new", Some([9.0, 0.01])),
     ]);
-    let compared = old.compare(&new, 2).unwrap();
+    let compared = old.compare(&new).unwrap();
     let names: Vec<_> = compared.iter().map(|c| (&*c.name, c.is_regression())).collect();
     let expected =
         [("slower", true), ("within noise", false), ("within 5 %", false), ("faster", false)];
@@ -86,26 +97,37 @@ fn slower_beyond_noise_and_nothing_else() {
 fn another_measurement_is_refused() {
     let old = baseline(vec![row("x", Some([1.0, 0.1]))]);
     let same = measured(vec![row("x", Some([1.0, 0.1]))]);
-    assert_eq!(old.compare(&same, 3), Err(BaselineError::Threads { old: 2, new: 3 }));
+    let mut other = same.clone();
+    other.subject.threads = 3;
+    assert!(matches!(old.compare(&other), Err(BaselineError::Threads { new: 3, .. })));
+    other.subject.threads = 2;
+    other.subject.simd = SimdLevel::Sse42;
+    let error = old.compare(&other).unwrap_err();
+    assert!(error.to_string().contains("measured on avx2, not sse4.2"), "{error}");
     let mut larger = same.clone();
     larger.subject.digest = "d2".to_owned();
     larger.subject.resolution = Resolution::new(8, 6).unwrap();
-    let error = old.compare(&larger, 2).unwrap_err();
+    let error = old.compare(&larger).unwrap_err();
     assert_eq!(
         error.to_string(),
         "a.toml was measured at 4x3, not 8x6; give --size 4x3, or measure it anew"
     );
     let mut changed = same.clone();
     changed.subject.digest = "d2".to_owned();
-    assert!(matches!(old.compare(&changed, 2), Err(BaselineError::Digest { .. })));
+    assert!(matches!(old.compare(&changed), Err(BaselineError::Digest { .. })));
     changed.subject.name = "b.toml".to_owned();
-    assert!(matches!(old.compare(&changed, 2), Err(BaselineError::Missing { .. })));
+    assert!(matches!(old.compare(&changed), Err(BaselineError::Missing { .. })));
+    // Other programs' times are not compared.
+    let mut theirs = row("x", Some([9.0, 0.1]));
+    theirs.program = Some("theirs".to_owned());
+    let only_theirs = old.compare(&measured(vec![theirs]));
+    assert!(matches!(only_theirs, Err(BaselineError::NothingInCommon { .. })));
     // The same scene under another name is the same scene.
     let mut renamed = same;
     renamed.subject.name = "b.toml".to_owned();
-    assert_eq!(old.compare(&renamed, 2).unwrap().len(), 1);
+    assert_eq!(old.compare(&renamed).unwrap().len(), 1);
     let wrong = measured(vec![row("x", None)]);
-    assert!(matches!(old.compare(&wrong, 2), Err(BaselineError::NothingInCommon { .. })));
+    assert!(matches!(old.compare(&wrong), Err(BaselineError::NothingInCommon { .. })));
 }
 
 #[test]
@@ -114,5 +136,5 @@ fn other_texts_are_refused() {
     assert!(refused("{\n  ]").contains("line 2 column 3"), "{}", refused("{\n  ]"));
     assert!(refused("{}").contains("missing field `schema`"));
     assert!(refused(r#"{"schema": "truecast/check/1"}"#).contains("`truecast/check/1`"));
-    assert!(refused(r#"{"schema": "truecast/bench/1"}"#).contains("missing field"));
+    assert!(refused(r#"{"schema": "truecast/bench/2"}"#).contains("missing field"));
 }

@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 /// Column names. Times of a wrong variant, wrong pixels of one that answers no question of
 /// visibility and decisions of one that reports none are empty.
-const HEADER: &str = "scene,width,height,triangles,threads,name,n,median_ms,mad_ms,min_ms,max_ms,\
+const HEADER: &str = "scene,width,height,triangles,threads,simd,program,work,name,n,median_ms,mad_ms,min_ms,max_ms,\
 rate,rate_unit,wrong_pixels,decisions_f32,decisions_f64,decisions_exact";
 
 /// A header, and one line per scene and variant.
@@ -19,12 +19,15 @@ pub fn to_csv(report: &Report) -> String {
             // Writing to a String cannot fail.
             let _ = write!(
                 text,
-                "{},{},{},{},{},{},{}",
+                "{},{},{},{},{},{},{},{},{},{}",
                 csv_field(&subject.name),
                 subject.resolution.width(),
                 subject.resolution.height(),
                 measured.triangles,
-                report.threads,
+                subject.threads,
+                subject.simd,
+                csv_field(row.program.as_deref().unwrap_or("truecast")),
+                row.work.name(),
                 csv_field(&row.name),
                 row.times.map_or(0, |times| times.n),
             );

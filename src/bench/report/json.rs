@@ -1,13 +1,14 @@
 //! A report as one JSON document with stable keys, which a later one can be compared with.
 
 use crate::bench::baseline::Compared;
+use crate::bench::rivalry::{Rivalry, rivalries};
 use crate::bench::rounds::Row;
 use crate::bench::workload::TreeFigures;
 use crate::bench::{Measured, Report};
 use serde_json::{Value, json};
 
 /// The value of the document's key `schema`.
-pub const SCHEMA: &str = "truecast/bench/1";
+pub const SCHEMA: &str = "truecast/bench/2";
 
 /// The document. Times are in milliseconds and unrounded; a wrong variant's are `null`.
 pub fn to_json(report: &Report) -> Value {
@@ -17,8 +18,9 @@ pub fn to_json(report: &Report) -> Value {
         "machine": {
             "logical_cores": report.machine.logical_cores,
             "cpu": report.machine.cpu,
+            "rustc": report.machine.rustc,
+            "commit": report.machine.commit,
         },
-        "threads": report.threads,
         "rounds": report.rounds,
         "scenes": report.scenes.iter().map(scene).collect::<Vec<_>>(),
         "comparison": report
@@ -35,12 +37,16 @@ fn scene(measured: &Measured) -> Value {
         "digest": subject.digest,
         "width": subject.resolution.width(),
         "height": subject.resolution.height(),
+        "threads": subject.threads,
+        "simd": subject.simd.name(),
         "triangles": measured.triangles,
         "covered_pixels": measured.covered_pixels,
         "disputed_pixels": measured.disputed_pixels,
         "audited_pixels": measured.audited_pixels,
         "trees": measured.trees.iter().map(tree).collect::<Vec<_>>(),
         "rows": measured.rows.iter().map(|r| row(measured, r)).collect::<Vec<_>>(),
+        "rivalries": rivalries(&measured.rows).iter().map(rivalry).collect::<Vec<_>>(),
+        "left_out": measured.left_out,
     })
 }
 
@@ -60,6 +66,8 @@ fn row(measured: &Measured, row: &Row) -> Value {
     let times = row.times.as_ref();
     json!({
         "name": row.name,
+        "work": row.work.name(),
+        "program": row.program,
         "wrong_pixels": row.wrong_pixels,
         "n": times.map_or(0, |times| times.n),
         "median_ms": times.map(|times| 1e3 * times.median),
@@ -76,6 +84,16 @@ fn row(measured: &Measured, row: &Row) -> Value {
             "exact": levels.exact,
             "per_pixel": (levels.single + levels.double + levels.exact) as f64 / pixels,
         })),
+    })
+}
+
+fn rivalry(rivalry: &Rivalry) -> Value {
+    json!({
+        "program": rivalry.program,
+        "theirs": rivalry.theirs,
+        "ours": rivalry.ours,
+        "ratio": rivalry.ratio,
+        "ratio_of_min": rivalry.ratio_of_least,
     })
 }
 

@@ -1,6 +1,7 @@
 //! A report as tables for a terminal.
 
 use crate::bench::baseline::Compared;
+use crate::bench::rivalry::rivalries;
 use crate::bench::rounds::Row;
 use crate::bench::{Measured, Report};
 use crate::statistics::NOISY_SPREAD;
@@ -11,9 +12,10 @@ use std::fmt::Write;
 pub fn to_table(report: &Report) -> String {
     let machine = &report.machine;
     let mut text = format!(
-        "truecast {}, {} threads, {} rounds; {}, {} logical cores\n",
+        "truecast {} ({}, commit {}), {} rounds; {}, {} logical cores\n",
         machine.version,
-        report.threads,
+        machine.rustc.unwrap_or("unknown compiler"),
+        machine.commit.unwrap_or("not told"),
         report.rounds,
         machine.cpu.as_deref().unwrap_or("unknown processor"),
         machine.logical_cores.map_or_else(|| "?".to_owned(), |cores| cores.to_string()),
@@ -31,12 +33,14 @@ fn scene(text: &mut String, measured: &Measured) {
     let subject = &measured.subject;
     let _ = writeln!(
         text,
-        "\n{}: {}x{} pixels, {} triangles, {} pixels covered",
+        "\n{}: {}x{} pixels, {} triangles, {} pixels covered; threads: {}, SIMD: {}",
         subject.name,
         subject.resolution.width(),
         subject.resolution.height(),
         measured.triangles,
         measured.covered_pixels,
+        subject.threads,
+        subject.simd,
     );
     let _ = writeln!(
         text,
@@ -45,10 +49,20 @@ fn scene(text: &mut String, measured: &Measured) {
     );
     let _ = writeln!(
         text,
-        "{:<20} {:>12} {:>10} {:>12} {:>22} {:>12}",
+        "{:<27} {:>12} {:>10} {:>12} {:>22} {:>12}",
         "", "median ms", "MAD ms", "min ms", "rate", "wrong pixels"
     );
     measured.rows.iter().for_each(|row| time(text, row));
+    for rivalry in rivalries(&measured.rows) {
+        let _ = writeln!(
+            text,
+            "closest hit: {} is {:.2} times as fast as {}, the best of {} ({:.2} by least times)",
+            rivalry.ours, rivalry.ratio, rivalry.theirs, rivalry.program, rivalry.ratio_of_least,
+        );
+    }
+    for left_out in &measured.left_out {
+        let _ = writeln!(text, "{left_out}");
+    }
     let noisy: Vec<&str> = measured.rows.iter().filter(|r| is_noisy(r)).map(|r| &*r.name).collect();
     if !noisy.is_empty() {
         let _ = writeln!(
@@ -60,20 +74,20 @@ fn scene(text: &mut String, measured: &Measured) {
     }
     let _ = writeln!(
         text,
-        "{:<20} {:>12} {:>10} {:>12} {:>22}",
+        "{:<27} {:>12} {:>10} {:>12} {:>22}",
         "tree", "inner nodes", "depth", "B/triangle", "area cost, tests/ray"
     );
     for tree in &measured.trees {
         let cost = tree.surface_area_cost.map_or_else(|| "-".to_owned(), |c| format!("{c:.2}"));
         let _ = writeln!(
             text,
-            "{:<20} {:>12} {:>10} {:>12.1} {:>22}",
+            "{:<27} {:>12} {:>10} {:>12.1} {:>22}",
             tree.preset, tree.nodes, tree.depth, tree.bytes_per_triangle, cost
         );
     }
     let _ = writeln!(
         text,
-        "{:<20} {:>12} {:>10} {:>12} {:>22}",
+        "{:<27} {:>12} {:>10} {:>12} {:>22}",
         "decisions", "f32", "f64", "exact", "all, per pixel"
     );
     for row in &measured.rows {
@@ -81,7 +95,7 @@ fn scene(text: &mut String, measured: &Measured) {
         let all = (levels.single + levels.double + levels.exact) as f64;
         let _ = writeln!(
             text,
-            "{:<20} {:>12} {:>10} {:>12} {:>22.2}",
+            "{:<27} {:>12} {:>10} {:>12} {:>22.2}",
             row.name,
             levels.single,
             levels.double,
@@ -100,7 +114,7 @@ fn time(text: &mut String, row: &Row) {
     let Some(times) = &row.times else {
         let _ = writeln!(
             text,
-            "{:<20} {:>12} {:>10} {:>12} {:>22} {wrong:>12}",
+            "{:<27} {:>12} {:>10} {:>12} {:>22} {wrong:>12}",
             row.name, "-", "-", "-", "wrong, so no time"
         );
         return;
@@ -109,7 +123,7 @@ fn time(text: &mut String, row: &Row) {
     let rate = rate.map_or_else(String::new, |r| format!("{r:.3} {}", row.amount.unit.rate()));
     let _ = writeln!(
         text,
-        "{:<20} {:>12.3} {:>10.3} {:>12.3} {rate:>22} {wrong:>12}",
+        "{:<27} {:>12.3} {:>10.3} {:>12.3} {rate:>22} {wrong:>12}",
         row.name,
         1e3 * times.median,
         1e3 * times.deviation,

@@ -1,7 +1,7 @@
 //! What is visible at any point of the image plane, not only at pixel centres.
 
 use crate::accel::Accelerator;
-use crate::cast::cast;
+use crate::cast::{CastOptions, cast_with};
 use crate::mesh::TriangleId;
 use crate::pixel::{Pixel, Resolution};
 use crate::scene::Scene;
@@ -35,10 +35,12 @@ impl Sampler<'_> {
         let frame = Resolution::new(1, 1)?;
         // Fails for no point near a frame that has a camera.
         let camera = PinholeCamera::exact(frame, camera.eye(), d0, dx, dy).ok()?;
-        // The caster takes triangles from the accelerator and the camera from the scene, which
+        // A ray alone takes triangles from the accelerator and the camera from the scene, which
         // needs no other part.
         let around = Scene::from_triangles(camera, &[]);
-        cast(&around, self.accelerator, frame.window(), Counting::Nearest, &|| ()).visible[0]
+        let alone = CastOptions { tiles: false, ..CastOptions::default() };
+        let window = frame.window();
+        cast_with(&around, self.accelerator, window, Counting::Nearest, alone, &|| ()).visible[0]
     }
 
     /// Whether a triangle, which must reach to `point`, ties there with the visible one, where the

@@ -1,15 +1,19 @@
 //! `truecast bench` as typed.
 
-use clap::Args;
+use clap::{Args, ValueEnum};
 use std::path::PathBuf;
+use truecast::accel::BuildPreset;
 use truecast::bench::BenchOptions;
+use truecast::bench::workload::Work;
 use truecast::pixel::Resolution;
+use truecast::simd::SimdLevel;
 
 #[derive(Debug, Args)]
 #[command(
     after_help = "Every answer to a question of visibility is held against both paths at every \
 pixel and against exact arithmetic at 200; a variant with a wrong answer gets no time but its number of \
-wrong pixels. Exit status: 0 ok; 1 a wrong answer, or slower than the baseline beyond noise; 2 usage; \
+wrong pixels. A program built with the features `peers` or `embree` times other programs' ray casters \
+beside its own. Exit status: 0 ok; 1 a wrong answer, or slower than the baseline beyond noise; 2 usage; \
 3 bad scene, nothing visible, or a baseline of another scene, size or number of threads; 4 reading or \
 writing failed; 130 interrupted."
 )]
@@ -17,7 +21,7 @@ pub(in crate::cli) struct BenchArguments {
     /// Scene files (TOML); without any the built-in default scene, a teapot under spotlights
     #[arg(value_name = "SCENE")]
     pub(in crate::cli) scenes: Vec<PathBuf>,
-    /// Also write the report to this file, .json or .csv by extension; may be repeated
+    /// Also write the report to this file, .json, .csv or .svg by extension; may be repeated
     #[arg(short, long = "output", value_name = "FILE")]
     pub(in crate::cli) output: Vec<PathBuf>,
     /// Compare with an earlier report in JSON: a median that is larger by more than 5 % and by more
@@ -33,9 +37,23 @@ pub(in crate::cli) struct BenchArguments {
     /// Measure at this size instead of the scenes'
     #[arg(long, value_name = "WxH", value_parser = super::parse_size)]
     pub(in crate::cli) size: Option<Resolution>,
-    /// Number of threads; 0 is one per core
-    #[arg(long, value_name = "N", default_value_t = 0)]
-    pub(in crate::cli) threads: usize,
+    /// Numbers of threads, separated by commas: each scene is measured on each; 0 is one per core
+    #[arg(long, value_name = "N,...", value_delimiter = ',', default_value = "0")]
+    pub(in crate::cli) threads: Vec<usize>,
+    /// Kinds of work to measure, separated by commas [default: all]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_enum)]
+    pub(in crate::cli) work: Vec<WorkWord>,
+    /// Presets by which trees are built and cast at, separated by commas [default: all]
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_enum)]
+    pub(in crate::cli) preset: Vec<PresetWord>,
+    /// Instruction sets that vector kernels are held to, Embree's too, separated by commas: each scene
+    /// is measured on each; baseline, sse4.2, avx2 or avx512 [default: the machine's best]
+    #[arg(long, value_name = "LEVEL,...", value_delimiter = ',', value_parser = parse_simd)]
+    pub(in crate::cli) simd: Vec<SimdLevel>,
+    /// The shared library of Embree, version 3 or 4 [default: the one that is installed]
+    #[cfg(feature = "embree")]
+    #[arg(long, value_name = "FILE")]
+    pub(in crate::cli) embree: Option<PathBuf>,
     /// Print one JSON document on stdout
     #[arg(long)]
     pub(in crate::cli) json: bool,
@@ -44,7 +62,99 @@ pub(in crate::cli) struct BenchArguments {
     pub(in crate::cli) quiet: bool,
 }
 
-fn parse_rounds(text: &str) -> Result<usize, String> {
+impl BenchArguments {
+    /// What they ask of each scene.
+    pub(in crate::cli) fn options(&self) -> BenchOptions {
+        let mut options = BenchOptions {
+            rounds: self.rounds,
+            holds_simd: !self.simd.is_empty(),
+            ..BenchOptions::default()
+        };
+        if !self.work.is_empty() {
+            options.works = self.work.iter().map(|word| word.work()).collect();
+        }
+        if !self.preset.is_empty() {
+            options.presets = self.preset.iter().map(|word| word.preset()).collect();
+        }
+        #[cfg(feature = "embree")]
+        {
+            options.embree.clone_from(&self.embree);
+        }
+        options
+    }
+}
+
+/// A kind of work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum WorkWord {
+    /// Building trees
+    Build,
+    /// The nearest triangle along one ray per pixel
+    Closest,
+    /// Whether anything stands between each visible point and the first light
+    Any,
+    /// The nearest triangle at every pixel by the rasterizer
+    Raster,
+    /// Every triangle at every pixel, counted, by either path
+    Cover,
+    /// Colours, and the planes of the film
+    Shade,
+    /// A whole frame
+    Frame,
+}
+
+impl WorkWord {
+    const fn work(self) -> Work {
+        match self {
+            Self::Build => Work::Build,
+            Self::Closest => Work::Closest,
+            Self::Any => Work::Any,
+            Self::Raster => Work::Raster,
+            Self::Cover => Work::Cover,
+            Self::Shade => Work::Shade,
+            Self::Frame => Work::Frame,
+        }
+    }
+}
+
+/// A build preset.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(in crate::cli) enum PresetWord {
+    /// The quickest build
+    Fastest,
+    /// A quick build
+    Fast,
+    /// The standard
+    Medium,
+    /// A slow build
+    Slow,
+    /// A build that may take minutes on overlapping triangles
+    VerySlow,
+}
+
+impl PresetWord {
+    const fn preset(self) -> BuildPreset {
+        match self {
+            Self::Fastest => BuildPreset::Fastest,
+            Self::Fast => BuildPreset::Fast,
+            Self::Medium => BuildPreset::Medium,
+            Self::Slow => BuildPreset::Slow,
+            Self::VerySlow => BuildPreset::VerySlow,
+        }
+    }
+}
+
+fn parse_simd(text: &str) -> Result<SimdLevel, String> {
+    let level: SimdLevel = text.parse().map_err(|error| format!("{error}"))?;
+    let available = SimdLevel::available();
+    if available.contains(&level) {
+        return Ok(level);
+    }
+    let names: Vec<&str> = available.into_iter().map(SimdLevel::name).collect();
+    Err(format!("this machine has only {}", names.join(", ")))
+}
+
+pub(super) fn parse_rounds(text: &str) -> Result<usize, String> {
     let rounds = text.trim().parse().ok().filter(|rounds| (1..=1_000_000).contains(rounds));
     rounds.ok_or_else(|| "expected a whole number from 1 to 1000000".to_owned())
 }

@@ -19,9 +19,11 @@ fn golden_scenes_for_every_preset_and_tile_size() {
         let accelerator = Accelerator::build(&scene.mesh, BuildPreset::Medium);
         let window = scene.camera.resolution().window();
         for side in [1, 3, 16, 64] {
-            let tiled = cast_with_tiles(&scene, &accelerator, window, Counting::All, &|| (), side);
+            let tiled = cast_in(&scene, &accelerator, window, Counting::All, side);
             assert_same(&buffer, &tiled);
             assert_eq!(buffer.cover, tiled.cover);
+            let tiled = cast_in(&scene, &accelerator, window, Counting::Nearest, side);
+            assert_same(&buffer, &tiled);
         }
     }
 }

@@ -8,7 +8,8 @@ use truecast::scene::light::{Light, LightColors};
 use truecast::scene::switches::{DIALECTS, SWITCHES, SwitchValue, Switches};
 use truecast::scene::texture::{Filter, Level, Texture, TextureRef, Wrap};
 use truecast::scene::{Scene, Shading, Sides};
-use truecast::shade::{self, Effects};
+use truecast::shade::{self, Effects, ShadeOptions};
+
 use truecast::visibility::VisibilityBuffer;
 
 /// Magnitudes around every edge of f32 and f64.
@@ -196,6 +197,11 @@ fn check(scene: &Scene, buffer: &VisibilityBuffer) -> u64 {
         infinite += u64::from(rgb.iter().any(|value| value.is_infinite()));
     }
     assert_eq!(shaded.notes.non_finite, infinite);
+    // Lane by lane and pixel by pixel, it is the same number.
+    let options = ShadeOptions { simd: None, ..ShadeOptions::new(Effects::of(scene)) };
+    let single = shade::shade_with(scene, buffer, &options, None, &|| ());
+    assert_eq!(bits(&single.radiance), bits(&shaded.radiance), "{scene:?}");
+    assert_eq!(single.notes, shaded.notes, "{scene:?}");
     let forced = shade::shade(scene, buffer, Effects::ALL, &|| ());
     assert_eq!(bits(&forced.radiance), bits(&shaded.radiance), "{scene:?}");
     infinite

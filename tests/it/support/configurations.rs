@@ -10,12 +10,13 @@ use agreement::{assert_arbiter_agrees, assert_finite, assert_paths_agree};
 use rayon::{ThreadPool, ThreadPoolBuilder};
 use std::sync::LazyLock;
 use truecast::accel::{Accelerator, BuildPreset};
-use truecast::cast::cast_with_tiles;
+use truecast::cast::{CastOptions, cast_nearest, cast_with};
 use truecast::raster::rasterize_in_tiles;
 use truecast::scene::Scene;
+use truecast::simd::SimdLevel;
 use truecast::visibility::{Counting, VisibilityBuffer};
 
-pub(crate) use agreement::assert_same;
+pub(crate) use agreement::{assert_nearest_is, assert_same};
 
 /// How widely a scene's answers are compared.
 #[derive(Clone, Copy)]
@@ -133,11 +134,26 @@ pub(crate) fn agreed_within(scene: &Scene, breadth: &Breadth, name: &str) -> Vis
 /// The caster: all tiles, threads and modes on the first accelerator, and all accelerators.
 fn cast_everywhere(scene: &Scene, breadth: &Breadth, name: &str) -> VisibilityBuffer {
     let window = scene.camera.resolution().window();
-    let ask =
-        |tree: &Accelerator, mode, side| cast_with_tiles(scene, tree, window, mode, &|| (), side);
+    let ask = |tree: &Accelerator, mode, side| {
+        let options = CastOptions { side, ..CastOptions::default() };
+        cast_with(scene, tree, window, mode, options, &|| ())
+    };
     let first = Accelerator::build(&scene.mesh, breadth.presets[0]);
     let reference =
         all_circumstances(breadth, &format!("{name}, cast"), |mode, side| ask(&first, mode, side));
+    // Rays one by one, and every instruction set.
+    let single = CastOptions { tiles: false, ..CastOptions::default() };
+    let found = cast_with(scene, &first, window, Counting::Nearest, single, &|| ());
+    assert_same(&reference, &found, &format!("{name}, cast, single rays"));
+    for simd in SimdLevel::available() {
+        let options = CastOptions { simd, ..CastOptions::default() };
+        for mode in MODES {
+            let found = cast_with(scene, &first, window, mode, options, &|| ());
+            assert_same(&reference, &found, &format!("{name}, cast, {simd}, {mode:?}"));
+        }
+        let nearest = cast_nearest(scene, &first, window, options, &|| ());
+        assert_nearest_is(&reference, &nearest, &format!("{name}, cast, {simd}, nearest only"));
+    }
     let presets = breadth.presets[1..].iter().map(|&preset| Some(preset));
     for (number, preset) in presets.chain(breadth.linear.then_some(None)).enumerate() {
         // Built where it is used: topologies must not hang on the number of threads either. Tile

@@ -6,7 +6,7 @@ use crate::support::closed::sphere;
 use crate::support::configurations::{Breadth, FULL, NARROW, agreed_within};
 use crate::support::scenes::{grid_camera, pixel_grid, standard_scene};
 use truecast::accel::{Accelerator, BuildPreset};
-use truecast::cast::cast_with_tiles;
+use truecast::cast::{CastOptions, cast_with};
 use truecast::pixel::Window;
 use truecast::raster::{rasterize, rasterize_in_tiles};
 use truecast::scene::Scene;
@@ -43,8 +43,9 @@ fn h85_crops() {
         {
             let window = Window::new(frame, x0, y0, x1, y1).unwrap();
             for side in [4, 32] {
+                let options = CastOptions { side, ..CastOptions::default() };
                 let crops = [
-                    (&whole, cast_with_tiles(&scene, &tree, window, Counting::All, &|| (), side)),
+                    (&whole, cast_with(&scene, &tree, window, Counting::All, options, &|| ())),
                     (&raster, rasterize_in_tiles(&scene, window, Counting::All, side, &|| ())),
                 ];
                 for (whole, crop) in crops {

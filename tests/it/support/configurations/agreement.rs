@@ -6,7 +6,7 @@ use truecast::check::tolerance::weights_agree;
 use truecast::exact::Arbiter;
 use truecast::pixel::Pixel;
 use truecast::scene::Scene;
-use truecast::visibility::{Level, VisibilityBuffer, Visible};
+use truecast::visibility::{Level, NearestBuffer, VisibilityBuffer, Visible};
 
 /// Largest relative width of a depth interval, the visibility buffer's contract.
 const DEPTH_WIDTH: f64 = 1.0 / (1_u64 << 40) as f64;
@@ -26,6 +26,29 @@ pub(crate) fn assert_same(reference: &VisibilityBuffer, found: &VisibilityBuffer
     }
     if let (Some(reference), Some(found)) = (&reference.cover, &found.cover) {
         assert_eq!(reference, found, "{name}");
+    }
+}
+
+/// Largest relative error of a `NearestBuffer`'s t, its contract. A t beyond f32 is infinite or 0.
+const NEAREST_T: f64 = 1.0 / (1 << 18) as f64;
+
+/// The same ids, and t as near as they are promised.
+#[track_caller]
+pub(crate) fn assert_nearest_is(whole: &VisibilityBuffer, nearest: &NearestBuffer, name: &str) {
+    assert_eq!(whole.window, nearest.window, "{name}");
+    for (index, visible) in whole.visible.iter().enumerate() {
+        let place = whole.window.pixel(index);
+        let id = visible.as_ref().map_or(u32::MAX, |visible| visible.triangle.get());
+        assert_eq!(id, nearest.ids[index], "{name}: {place:?}");
+        let t = nearest.t[index];
+        let Some(visible) = visible else {
+            assert_eq!(t, f32::INFINITY, "{name}: {place:?}");
+            continue;
+        };
+        let right = visible.t();
+        let off = (f64::from(t) - right).abs();
+        let is_beyond_f32 = !(right as f32).is_normal();
+        assert!(is_beyond_f32 || off <= NEAREST_T * right, "{name}: {place:?}: {t} for {right}");
     }
 }
 

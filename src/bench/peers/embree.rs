@@ -1,0 +1,153 @@
+//! Embree in the ways that its users cast primary rays: one by one, and in coherent packets, each
+//! with and without the robust flag.
+//!
+//! Packets are 16 rays of 4 × 4 pixels, or 8 of 4 × 2 where the instruction set has no 16 lanes:
+//! Embree would trace packets of 16 one ray at a time there. Trees are of medium quality, its
+//! default. Denormals are left as they are: no mesh worth timing has any.
+
+use super::embree_sys::{Call, Embree, Lanes, Packet, Tree};
+use super::rays::Rays;
+use super::{Hits, PeerError, PeerOptions};
+use crate::bench::workload::{Answer, Variant, Work};
+use crate::mesh::TriangleMesh;
+use crate::pixel::Pixel;
+use crate::simd::SimdLevel;
+use std::ffi::OsStr;
+use std::hint::black_box;
+
+/// Under which names a system may know the library, the newest first.
+const NAMES: [&str; 6] = [
+    "libembree4.so.4",
+    "libembree4.so",
+    "libembree4.dylib",
+    "libembree3.so.3",
+    "libembree3.so",
+    "libembree3.dylib",
+];
+
+/// Columns of the block of pixels that a packet of either width covers.
+const BLOCK_WIDTH: u32 = 4;
+
+/// One mesh, built with and without the robust flag.
+pub(super) struct Scenes<'a> {
+    embree: Embree,
+    mesh: &'a TriangleMesh,
+    configuration: String,
+    fast: Tree,
+    robust: Tree,
+}
+
+impl<'a> Scenes<'a> {
+    /// Loads the library and builds both trees on the threads of the pool this is called from.
+    pub(super) fn new(mesh: &'a TriangleMesh, options: &PeerOptions) -> Result<Self, PeerError> {
+        let named = options.embree.as_ref().map(|path| path.display().to_string());
+        let failed = |reason| PeerError::Embree {
+            path: named.clone().unwrap_or_else(|| NAMES[0].to_owned()),
+            reason,
+        };
+        let embree = match &options.embree {
+            Some(path) => Embree::load(path.as_os_str()).map_err(failed)?,
+            None => NAMES
+                .iter()
+                .find_map(|name| Embree::load(OsStr::new(name)).ok())
+                .ok_or_else(|| failed("none of its libraries is installed".to_owned()))?,
+        };
+        let mut configuration = format!("threads={}", rayon::current_num_threads());
+        if let Some(level) = options.simd {
+            configuration += match level {
+                SimdLevel::Baseline => ",isa=sse2",
+                SimdLevel::Sse42 => ",isa=sse4.2",
+                SimdLevel::Avx2 => ",isa=avx2",
+                SimdLevel::Avx512 => ",isa=avx512",
+            };
+        }
+        let build = |is_robust| {
+            embree
+                .build(&configuration, (&mesh.positions, &mesh.corners), is_robust)
+                .map_err(failed)
+        };
+        let (fast, robust) = (build(false)?, build(true)?);
+        Ok(Self { embree, mesh, configuration, fast, robust })
+    }
+
+    /// The build, and both trees by single rays and by packets.
+    pub(super) fn variants<'b>(&'b self, rays: &'b Rays) -> Vec<Variant<'b>> {
+        let [major, minor, patch] = self.embree.version;
+        let program = format!("Embree {major}.{minor}.{patch}");
+        let mut variants = Vec::new();
+        let build = || {
+            let data = (&self.mesh.positions[..], &self.mesh.corners[..]);
+            // It has been built before with the same arguments; a failure would show as no time.
+            drop(black_box(self.embree.build(&self.configuration, data, false)));
+            Answer::Unchecked
+        };
+        variants.push(Variant::new("build Embree", Work::Build, self.mesh.len(), build));
+        for (tree, suffix) in [(&self.fast, ""), (&self.robust, ", robust")] {
+            let hits = rays.hits();
+            variants.push(Variant::new(
+                format!("Embree single{suffix}"),
+                Work::Closest,
+                rays.len(),
+                move || {
+                    cast_singles(tree, rays, &hits);
+                    Answer::Hits(hits.clone())
+                },
+            ));
+            let hits = rays.hits();
+            let lanes = if tree.has_16_lanes() { 16 } else { 8 };
+            variants.push(Variant::new(
+                format!("Embree {lanes} coherent{suffix}"),
+                Work::Closest,
+                rays.len(),
+                move || {
+                    match lanes {
+                        16 => cast_packets::<16>(tree, rays, &hits),
+                        _ => cast_packets::<8>(tree, rays, &hits),
+                    }
+                    Answer::Hits(hits.clone())
+                },
+            ));
+        }
+        variants.into_iter().map(|variant| variant.of(&program)).collect()
+    }
+}
+
+fn cast_singles(tree: &Tree, rays: &Rays, hits: &Hits) {
+    rays.for_each_tile(|tile| {
+        let mut call = Call::coherent();
+        let mut packet = Packet::<1>::from(rays.origin);
+        for pixel in tile.pixels() {
+            let (index, direction) = rays.at(pixel);
+            packet.aim(0, direction);
+            tree.closest(&mut call, &Lanes([-1]), &mut packet);
+            hits.store(index, packet.triangle[0], packet.far[0]);
+        }
+    });
+}
+
+fn cast_packets<const N: usize>(tree: &Tree, rays: &Rays, hits: &Hits) {
+    let height = N as u32 / BLOCK_WIDTH;
+    rays.for_each_tile(|tile| {
+        let mut call = Call::coherent();
+        let mut packet = Packet::<N>::from(rays.origin);
+        for y in (tile.y0()..tile.y1()).step_by(height as usize) {
+            for x in (tile.x0()..tile.x1()).step_by(BLOCK_WIDTH as usize) {
+                let mut lanes = Lanes([0; N]);
+                let mut places = [0; N];
+                for (lane, place) in places.iter_mut().enumerate() {
+                    let (column, row) = (lane as u32 % BLOCK_WIDTH, lane as u32 / BLOCK_WIDTH);
+                    let pixel = Pixel { x: x + column, y: y + row };
+                    if tile.contains(pixel) {
+                        let (index, direction) = rays.at(pixel);
+                        packet.aim(lane, direction);
+                        (lanes.0[lane], *place) = (-1, index);
+                    }
+                }
+                tree.closest(&mut call, &lanes, &mut packet);
+                for lane in (0..N).filter(|&lane| lanes.0[lane] != 0) {
+                    hits.store(places[lane], packet.triangle[lane], packet.far[lane]);
+                }
+            }
+        }
+    });
+}

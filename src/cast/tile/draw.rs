@@ -1,0 +1,193 @@
+//! A batch of triangles drawn into a tile, in two phases without branches per triangle or block.
+//!
+//! First every triangle is held against all 64 blocks, 16 at a time, and the pairs that may show go
+//! to a list; then each pair is drawn, 16 samples at a time. Only what f32 leaves open is branched
+//! on, and it goes to [`super::settle`]. Bounds are those of [`super::rows`].
+
+use super::frame::Frame;
+use super::rows::Batch;
+use super::settle::{self, Memory, Open};
+use super::state::{ACROSS, BLOCK, BLOCKS, Samples};
+use crate::accel::{GROUP, WIDTH};
+use crate::mutant::{self, Mutant};
+use crate::pixel::Window;
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, f32x16, u32x16};
+
+/// Steps to a block's corner, over blocks; and to a sample inside a block, over lanes: x and y.
+const CORNERS: [[f32; BLOCKS]; 2] = steps(ACROSS, BLOCK as f32);
+const INSIDE: [[f32; WIDTH]; 2] = steps(BLOCK, 1.0);
+
+const fn steps<const COUNT: usize>(across: usize, size: f32) -> [[f32; COUNT]; 2] {
+    let mut steps = [[0.0; COUNT]; 2];
+    let mut i = 0;
+    while i < COUNT {
+        steps[0][i] = (i % across) as f32 * size;
+        steps[1][i] = (i / across) as f32 * size;
+        i += 1;
+    }
+    steps
+}
+
+/// The lanes of a vector.
+const NUMBERS: [u32; WIDTH] = [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15];
+
+/// Pairs of a batch at most, and room for one vector more.
+const PAIRS: usize = GROUP * BLOCKS + WIDTH;
+
+/// The drawing's own memory.
+#[repr(align(64))]
+pub(super) struct Scratch {
+    /// Per triangle, edge functions and z at the corners of the blocks.
+    corners: [[[f32; BLOCKS]; 4]; GROUP],
+    /// Per triangle, their steps inside a block.
+    inside: [[[f32; WIDTH]; 4]; GROUP],
+    /// Triangle·64 + block.
+    pairs: [u32; PAIRS],
+}
+
+impl Scratch {
+    pub(super) const EMPTY: Self = Self {
+        corners: [[[0.0; BLOCKS]; 4]; GROUP],
+        inside: [[[0.0; WIDTH]; 4]; GROUP],
+        pairs: [0; PAIRS],
+    };
+}
+
+/// Draws the batch.
+#[inline(always)]
+pub(super) fn draw<S: Simd>(
+    simd: S,
+    frame: &Frame<'_>,
+    window: Window,
+    batch: &Batch,
+    scratch: &mut Scratch,
+    samples: &mut Samples,
+    memory: &mut Memory<'_>,
+) {
+    let pairs = list_pairs(simd, batch, scratch, samples);
+    if pairs == 0 {
+        return;
+    }
+    let dirty = draw_pairs(simd, frame, window, batch, scratch, pairs, samples, memory);
+    memory.levels.single += (pairs * WIDTH) as u64;
+    let mut left = dirty;
+    while left != 0 {
+        let block = left.trailing_zeros() as usize;
+        left &= left - 1;
+        samples.block_z[block] = f32x16::load_array_ref(simd, &samples.z_lo[block]).reduce_min();
+    }
+    if dirty != 0 {
+        samples.narrow();
+    }
+}
+
+/// Lists the pairs of a triangle and a block in which it may show.
+#[inline(always)]
+fn list_pairs<S: Simd>(simd: S, batch: &Batch, scratch: &mut Scratch, samples: &Samples) -> usize {
+    let inside_x = f32x16::load_array_ref(simd, &INSIDE[0]);
+    let inside_y = f32x16::load_array_ref(simd, &INSIDE[1]);
+    let across = f32x16::from_slice(simd, &CORNERS[0][..WIDTH]);
+    let mut down = [across; 4];
+    let mut depths = [across; 4];
+    for q in 0..4 {
+        let of_q = q * WIDTH..(q + 1) * WIDTH;
+        down[q] = f32x16::from_slice(simd, &CORNERS[1][of_q.clone()]);
+        depths[q] = f32x16::from_slice(simd, &samples.block_z[of_q]);
+    }
+    let numbers = u32x16::load_array_ref(simd, &NUMBERS);
+    let mut count = 0;
+    let mut left = batch.live;
+    while left != 0 {
+        let lane = left.trailing_zeros() as usize;
+        left &= left - 1;
+        let mut may = [u64::MAX; 4];
+        for i in 0..4 {
+            let rows = &batch.rows[i];
+            let a = f32x16::splat(simd, rows[0][lane]);
+            let b = f32x16::splat(simd, rows[1][lane]);
+            let c = f32x16::splat(simd, rows[2][lane]);
+            let reach = f32x16::splat(simd, batch.reach[i][lane]);
+            b.mul_add(inside_y, a * inside_x).store_array(&mut scratch.inside[lane][i]);
+            let at_column = a.mul_add(across, c);
+            for q in 0..4 {
+                let corner = b.mul_add(down[q], at_column);
+                let to = &mut scratch.corners[lane][i][q * WIDTH..(q + 1) * WIDTH];
+                corner.store_slice(to);
+                let reached = match i {
+                    3 if mutant::is(Mutant::NearerBlocks) => (corner - reach).simd_gt(depths[q]),
+                    3 => (corner + reach).simd_ge(depths[q]),
+                    _ => corner.simd_ge(reach),
+                };
+                may[q] &= reached.to_bitmask();
+            }
+        }
+        for q in 0..4 {
+            let first = u32x16::splat(simd, (lane * BLOCKS + q * WIDTH) as u32);
+            let mask = simd.from_bitmask_mask32x16(may[q]);
+            simd.compress_u32x16(numbers + first, mask)
+                .store_slice(&mut scratch.pairs[count..count + WIDTH]);
+            count += may[q].count_ones() as usize;
+        }
+    }
+    count
+}
+
+/// Draws the listed pairs; a bit for every block that has changed.
+#[inline(always)]
+#[allow(clippy::too_many_arguments, reason = "one loop over everything that a tile has")]
+fn draw_pairs<S: Simd>(
+    simd: S,
+    frame: &Frame<'_>,
+    window: Window,
+    batch: &Batch,
+    scratch: &Scratch,
+    pairs: usize,
+    samples: &mut Samples,
+    memory: &mut Memory<'_>,
+) -> u64 {
+    let (one, minus_one) = (f32x16::splat(simd, 1.0), f32x16::splat(simd, -1.0));
+    let mut dirty = 0_u64;
+    for &pair in &scratch.pairs[..pairs] {
+        let (lane, block) = (pair as usize / BLOCKS % GROUP, pair as usize % BLOCKS);
+        let corners = &scratch.corners[lane];
+        let inside = &scratch.inside[lane];
+        // Evaluate the edge functions and z at the 16 samples.
+        let mut values = [one; 4];
+        for i in 0..4 {
+            let corner = f32x16::splat(simd, corners[i][block]);
+            values[i] = f32x16::load_array_ref(simd, &inside[i]) + corner;
+        }
+        let least = values[0].min(values[1]).min(values[2]);
+        let z = values[3];
+        let error = f32x16::splat(simd, batch.depth_error[lane]);
+        let (lo, hi) = (z - error, z + error);
+        let z_lo = f32x16::load_array_ref(simd, &samples.z_lo[block]);
+        let z_hi = f32x16::load_array_ref(simd, &samples.z_hi[block]);
+        // Decide what is certain.
+        let may = !(least.simd_lt(minus_one) | hi.simd_lt(z_lo));
+        let sure = if mutant::is(Mutant::BelievedRows) {
+            least.simd_ge(f32x16::splat(simd, 0.0)) & hi.simd_gt(z_hi)
+        } else {
+            may & least.simd_gt(one) & lo.simd_gt(z_hi)
+        };
+        sure.select(lo, z_lo).store_array(&mut samples.z_lo[block]);
+        sure.select(hi, z_hi).store_array(&mut samples.z_hi[block]);
+        let ids = u32x16::load_array_ref(simd, &samples.ids[block]);
+        sure.select(u32x16::splat(simd, batch.ids[lane]), ids).store_array(&mut samples.ids[block]);
+        let sure_bits = sure.to_bitmask() as u16;
+        let may_bits = may.to_bitmask() as u16;
+        if !mutant::is(Mutant::StaleTies) {
+            samples.ties[block] &= !sure_bits;
+        }
+        dirty |= u64::from(may_bits != 0) << block;
+        // Hand on what is not.
+        let open = may_bits & !sure_bits;
+        let open = if mutant::is(Mutant::BelievedRows) { 0 } else { open };
+        if open != 0 {
+            let covered = least.simd_gt(one).to_bitmask() as u16;
+            let open = Open { triangle: batch.ids[lane], block, lanes: open, covered };
+            settle::settle(frame, window, samples, memory, open);
+        }
+    }
+    dirty
+}

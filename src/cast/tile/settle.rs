@@ -1,0 +1,154 @@
+//! What f32 leaves open, sample by sample: the caster's own f64 and exact decisions.
+//!
+//! Rare: one sample in 10⁴ to 10⁵, except where triangles lie in one plane. Whether two do is asked
+//! of exact arithmetic once per pair ([`SamePlane`]); from then on their ids decide.
+
+use super::frame::Frame;
+use super::state::{self, NOTHING, Samples};
+use crate::accel::LeafTriangle;
+use crate::cast::candidate::Candidate;
+use crate::cast::coverage;
+use crate::cast::memo::SamePlane;
+use crate::cast::ray::Ray;
+use crate::cast::single::ShearedRay;
+use crate::mesh::TriangleId;
+use crate::pixel::Window;
+use crate::visibility::{Level, LevelCounts};
+
+/// What a thread keeps between its decisions.
+pub(in crate::cast) struct Memory<'a> {
+    pub(in crate::cast) same_plane: SamePlane<'a>,
+    pub(in crate::cast) levels: LevelCounts,
+}
+
+/// Samples of a block that a triangle may be the nearest at.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Open {
+    pub(super) triangle: u32,
+    pub(super) block: usize,
+    /// Samples to decide, and those that the triangle certainly covers.
+    pub(super) lanes: u16,
+    pub(super) covered: u16,
+}
+
+/// Decides them.
+#[cold]
+#[inline(never)]
+pub(super) fn settle(
+    frame: &Frame<'_>,
+    window: Window,
+    samples: &mut Samples,
+    memory: &mut Memory<'_>,
+    open: Open,
+) {
+    let Open { triangle, block, lanes, covered } = open;
+    let mut left = lanes & samples.inside[block];
+    while left != 0 {
+        let lane = left.trailing_zeros() as usize;
+        left &= left - 1;
+        let bit = 1 << lane;
+        let nearest = samples.ids[block][lane];
+        // Certainly covered, and known to lie in the plane of the nearest: by the ids.
+        if covered & bit != 0
+            && nearest != NOTHING
+            && memory.same_plane.knows(TriangleId::new(triangle), TriangleId::new(nearest))
+        {
+            samples.ids[block][lane] = nearest.min(triangle);
+            samples.ties[block] |= bit;
+            samples.double[block] |= bit;
+            memory.levels.double += 1;
+            continue;
+        }
+        let level = decide(frame, window, samples, memory, [block, lane], triangle);
+        match level {
+            Level::Single => {}
+            Level::Double => samples.double[block] |= bit,
+            Level::Exact => samples.exact[block] |= bit,
+        }
+    }
+}
+
+/// Computes t where the bounds of z are too far apart to give it.
+#[cold]
+#[inline(never)]
+pub(super) fn refine_t(
+    frame: &Frame<'_>,
+    window: Window,
+    samples: &mut Samples,
+    block: usize,
+    lanes: u16,
+) {
+    for lane in (0..16).filter(|lane| lanes >> lane & 1 != 0) {
+        let ray = frame.view.ray(state::pixel(window, block, lane));
+        let sheared = ShearedRay::new(&ray);
+        if let Some(mut found) = covering(frame, &ray, &sheared, samples.ids[block][lane]).0 {
+            let [lo, hi] = found.narrow(&ray).t;
+            samples.t[block][lane] = frame.view.camera_t(lo + (hi - lo) * 0.5) as f32;
+        }
+    }
+}
+
+/// Decides one sample; the highest level that it took.
+fn decide(
+    frame: &Frame<'_>,
+    window: Window,
+    samples: &mut Samples,
+    memory: &mut Memory<'_>,
+    [block, lane]: [usize; 2],
+    triangle: u32,
+) -> Level {
+    let ray = frame.view.ray(state::pixel(window, block, lane));
+    let sheared = ShearedRay::new(&ray);
+    let bit = 1 << lane;
+    let (found, level) = covering(frame, &ray, &sheared, triangle);
+    super::super::count(&mut memory.levels, level);
+    let Some(mut found) = found else { return level };
+    let nearest = samples.ids[block][lane];
+    let mut highest = level;
+    let best = (nearest != NOTHING).then(|| covering(frame, &ray, &sheared, nearest).0).flatten();
+    let tie = samples.ties[block] & bit != 0;
+    let (winner, tie) = match best {
+        None => {
+            let tie = found.covering.on_edge;
+            (found, tie)
+        }
+        Some(mut best) => {
+            let (nearer, level) = found.precedes(&mut best, &ray, &mut memory.same_plane);
+            super::super::count(&mut memory.levels, level);
+            highest = highest.max(level);
+            if nearer {
+                let tie = found.covering.on_edge || (found.shared && best.shared);
+                (found, tie)
+            } else {
+                (best, tie || (found.shared && best.shared))
+            }
+        }
+    };
+    let [lo, hi] = z_bounds(frame, &winner);
+    samples.ids[block][lane] = winner.triangle.id.get();
+    samples.z_lo[block][lane] = lo;
+    samples.z_hi[block][lane] = hi;
+    samples.ties[block] = samples.ties[block] & !bit | u16::from(tie) << lane;
+    highest
+}
+
+/// A triangle as a candidate at a sample, if it covers it. Copies are looked up at the end, so
+/// nothing is shared yet.
+fn covering(
+    frame: &Frame<'_>,
+    ray: &Ray,
+    sheared: &ShearedRay,
+    triangle: u32,
+) -> (Option<Candidate>, Level) {
+    let id = TriangleId::new(triangle);
+    let triangle = LeafTriangle { vertices: frame.mesh.triangle(id), id, copies: 1 };
+    let (covering, level) = coverage::decide(ray, sheared, &triangle);
+    (covering.map(|covering| Candidate::new(ray, &triangle, covering)), level)
+}
+
+/// Bounds of σ/t in f32: each quotient rounds once in f64 and once to f32, and a step of f32 covers
+/// both. A t of 0, the crudest lower bound, gives +∞.
+fn z_bounds(frame: &Frame<'_>, candidate: &Candidate) -> [f32; 2] {
+    let z = |t: f64| (frame.sigma / t) as f32;
+    [z(candidate.reach()).next_down(), z(candidate.nearest_t()).next_up()]
+}
