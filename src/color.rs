@@ -4,11 +4,11 @@
 //! come from tables of exact steps, so they are the same on every platform; 16-bit codes, which only
 //! textures have, go through `libm`'s power function. The curve is that of IEC 61966-2-1.
 
+mod srgb_buckets;
 mod srgb_levels;
 mod srgb_thresholds;
 
 use srgb_levels::LEVELS;
-use srgb_thresholds::THRESHOLDS;
 
 /// Linear radiance per channel (red, green, blue), Rec. 709 primaries.
 pub type LinearRgb = [f64; 3];
@@ -21,8 +21,7 @@ pub type LinearRgb = [f64; 3];
 /// gives 0 in a release build.
 pub fn srgb_code(linear: f64) -> u8 {
     debug_assert!(!linear.is_nan(), "a picture value is not a number");
-    // There are 255 thresholds, so their count fits a u8.
-    THRESHOLDS.partition_point(|&threshold| threshold <= linear) as u8
+    srgb_buckets::count_thresholds(linear)
 }
 
 /// The linear value, in [0, 1], of an 8-bit sRGB code: EOTF(code/255), rounded once.

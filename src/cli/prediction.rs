@@ -25,19 +25,20 @@ pub(super) fn preset_name(preset: BuildPreset) -> &'static str {
 
 /// The ways to render, the quickest first: a line each.
 pub(super) fn lines(ways: &[Prediction]) -> String {
-    let mut text = String::new();
-    for (position, way) in ways.iter().enumerate() {
+    let line = |(position, way): (usize, &Prediction)| {
         let tree = way.preset.map_or_else(String::new, |preset| {
-            format!(" of {:.1} for a BVH ({})", milliseconds(way.build), preset_name(preset))
+            let build = milliseconds(way.build);
+            format!(", of them {build:.1} for a BVH ({})", preset_name(preset))
         });
-        text += &format!(
-            "{}  {:<6} {:.1} ms predicted{tree}\n",
-            if position == 0 { "picks    " } else { "not      " },
+        format!(
+            "{:<11}{:<6} {:.1} ms of one core predicted{tree}{}\n",
+            if position == 0 { "path" } else { "" },
             path_name(way.path),
             milliseconds(way.total()),
-        );
-    }
-    text
+            if position == 0 { "; render picks it, for all answer the same" } else { "" },
+        )
+    };
+    ways.iter().enumerate().map(line).collect()
 }
 
 /// The same for programs.

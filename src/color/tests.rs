@@ -1,6 +1,7 @@
 //! Proves both sRGB tables in rational arithmetic: x ≥ r^(12/5) is x⁵ ≥ r¹² for x, r > 0, which
 //! needs no root and no rounding.
 
+use super::srgb_thresholds::THRESHOLDS;
 use super::*;
 use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;

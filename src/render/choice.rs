@@ -1,8 +1,8 @@
 //! Which path and which tree a frame takes, where nobody asks for one: those that are predicted to
 //! take the least time.
 //!
-//! Both paths give the same answer, so that only time is at stake, and a model of a few numbers will
-//! do: it must tell 5 ms from 50, not 5 from 6. It knows the scene and the options and neither the
+//! Both paths give the same answer (and numbers that differ in the noise of f64 at most), so that only
+//! time is at stake, and a model of a few numbers will do: it must tell 5 ms from 50, not 5 from 6. It knows the scene and the options and neither the
 //! machine nor the number of threads: the plane `verdict.level`, which tells how the path decided,
 //! must not depend on them.
 

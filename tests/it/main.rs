@@ -2,6 +2,8 @@
 
 // The arbiter against golden images, hand values and its own undiscarded self.
 mod arbiter;
+// Frames in bands, and the way that a frame takes.
+mod bands;
 // The benchmark: report, baselines, no time for a wrong kernel.
 mod bench;
 // Only the effects that a scene calls for: neutral, uncounted, measured.

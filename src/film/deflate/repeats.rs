@@ -4,12 +4,14 @@ use super::DISTANCES;
 use super::symbols::LONGEST;
 use std::ops::Range;
 
-/// Shortest repeat that is taken: three bytes cost about as much as their literals.
-const SHORTEST: u32 = 4;
+/// Bytes that are compared at a place, and places that are stepped over: of repeats, all of 7 bytes
+/// are found and none below 4. (Three bytes cost about as much as their literals.)
+const STEP: usize = 4;
 
-/// One more place is stepped over per so many literals: a repeat that is 8 bytes longer than this
-/// part of the literals before it is still found.
-const PATIENCE: usize = 128;
+/// One more place is stepped over per so many literals, so that only repeats are sure to be found
+/// that are 7 bytes longer than this part of the literals before them. With 32 instead of 128, blocks
+/// of 25 planes took 10 % less time and 0.15 % more bytes.
+const PATIENCE: usize = 32;
 
 /// Bytes as they are, then a repeat; the last piece of a block has a repeat of length 0.
 #[derive(Clone, Copy, Debug)]
@@ -33,23 +35,17 @@ pub(super) fn find_pieces(
     let end = range.end;
     let (mut from, mut at) = (range.start, range.start);
     while at + 8 <= end {
-        let here = eight(bytes, at);
-        // The first four bytes against those before; beyond the front, the fourth differs.
-        let differences: [u32; DISTANCES] = std::array::from_fn(|k| {
-            let before = at.checked_sub(distances[k]);
-            before.map_or(1 << 24, |before| (here ^ eight(bytes, before)) as u32)
-        });
-        // A repeat of four bytes cannot begin at or before a byte of these that differs.
-        let skip = differences.map(|difference| SHORTEST - difference.leading_zeros() / 8);
-        let skip = skip.into_iter().fold(SHORTEST, u32::min);
-        if skip > 0 {
+        // Four bytes against those before; in front of all there is nothing.
+        let here = four(bytes, at);
+        let same = distances.map(|distance| four(bytes, at.wrapping_sub(distance)) == here);
+        if !same.contains(&true) {
             // Where nothing was found for long, little is to be found: look at fewer places.
-            at += skip as usize + (at - from) / PATIENCE;
+            at += STEP + (at - from) / PATIENCE;
             continue;
         }
         let mut best = (0, 0);
-        for (k, difference) in differences.iter().enumerate() {
-            if *difference == 0 && best.0 < LONGEST {
+        for (k, same) in same.into_iter().enumerate() {
+            if same && best.0 < LONGEST {
                 let length = common(bytes, at, distances[k], end);
                 if length > best.0 {
                     best = (length, k);
@@ -76,6 +72,12 @@ pub(super) fn find_pieces(
 fn common_before(bytes: &[u8], range: Range<usize>, distance: usize) -> usize {
     let start = range.start.max(distance);
     (start..range.end).rev().take_while(|&at| bytes[at] == bytes[at - distance]).count()
+}
+
+/// Four bytes from `at` on, if they are there.
+#[inline]
+fn four(bytes: &[u8], at: usize) -> Option<&[u8; 4]> {
+    bytes.get(at..).and_then(|rest| rest.first_chunk())
 }
 
 /// Eight bytes from `at` on, which must be there.

@@ -116,7 +116,7 @@ impl<'a> BitWriter<'a> {
         Self { bytes, at, held: 0, count: 0 }
     }
 
-    /// Adds bits. Up to 57 fit between two calls of [`Self::flush`].
+    /// Adds bits. Up to 56 fit between two calls of [`Self::flush`].
     #[inline]
     pub(super) fn put(&mut self, value: u64, count: u32) {
         self.held |= value << self.count;
@@ -133,8 +133,8 @@ impl<'a> BitWriter<'a> {
         }
         let whole = self.count / 8;
         self.at += whole as usize;
-        // All 64 bits are never whole bytes: at most 7 + 57 are held.
-        self.held = self.held.checked_shr(8 * whole).unwrap_or(0);
+        // At most 63 bits are held: 7 bytes are whole.
+        self.held >>= 8 * whole;
         self.count -= 8 * whole;
     }
 

@@ -1,0 +1,200 @@
+//! Frames in bands, and the way that a frame takes: neither changes a bit.
+
+use crate::support::program::truecast;
+use serde_json::Value;
+use std::convert::Infallible;
+use std::path::Path;
+use truecast::film::{Film, Samples, load_exr};
+use truecast::pixel::Window;
+use truecast::render::{
+    PlaneGroups, RenderOptions, Unwatched, VisibilityPath, predict, render, render_bands,
+};
+use truecast::scene::sampling::SampleGrid;
+use truecast::scene::{Overrides, Scene};
+
+/// See-through, shadows, textures' coordinates; more rows than a band has.
+const SCENE: &str = r#"version = 1
+[image]
+width = 90
+height = 160
+[camera]
+eye = [0.3, 2.5, 5]
+target = [0, 0, 0]
+up = [0, 1, 0]
+fov_y_deg = 60
+[[material]]
+name = "glass"
+kd = [0.2, 0.5, 0.9]
+opacity = 0.4
+[[material]]
+name = "stone"
+kd = [0.6, 0.5, 0.4]
+[[mesh]]
+shape = { plane = {} }
+material = "stone"
+scale = [6, 1, 6]
+[[mesh]]
+shape = { torus = { major = 1.0, minor = 0.4, around = 24, across = 16 } }
+material = "glass"
+translate = [0, 1, 0]
+[[light]]
+type = "point"
+position = [2, 5, 3]
+intensity = [1, 1, 1]
+shadows = true
+"#;
+
+fn scene(text: &str) -> Scene {
+    Scene::from_toml(text, Path::new("bands.toml"), Path::new(""), &Overrides::default()).unwrap()
+}
+
+/// Numbers below this are 0 and its noise: what f64 makes of coordinates up to 10 units, each path in
+/// its own way, where the exact number is 0.
+const ZERO: f32 = 1e-13;
+
+/// The bits of a plane.
+fn bits(samples: &Samples) -> Vec<u32> {
+    match samples {
+        Samples::Float(values) => values.iter().map(|value| value.to_bits()).collect(),
+        Samples::Uint(values) => values.clone(),
+    }
+}
+
+/// Bands of a frame put together by planes, and how many there were.
+fn in_bands(scene: &Scene, options: &RenderOptions) -> (Vec<(String, Vec<u32>)>, usize) {
+    let (mut planes, mut count): (Vec<(String, Vec<u32>)>, usize) = (Vec::new(), 0);
+    let append = |band: Film| {
+        count += 1;
+        if planes.is_empty() {
+            planes = band.planes.iter().map(|plane| (plane.name.clone(), Vec::new())).collect();
+        }
+        for (plane, (name, all)) in band.planes.iter().zip(&mut planes) {
+            assert_eq!(plane.name, *name);
+            all.extend(bits(&plane.samples));
+        }
+        Ok::<_, Infallible>(())
+    };
+    render_bands(scene, options, &Unwatched, append).unwrap();
+    (planes, count)
+}
+
+#[test]
+fn bands_together_are_the_frame() {
+    let mut scene = scene(SCENE);
+    let frame = scene.camera.resolution();
+    for side in [1, 2] {
+        scene.samples = SampleGrid::new(side).unwrap();
+        for path in [VisibilityPath::Cast, VisibilityPath::Raster] {
+            for window in [None, Window::new(frame, 5, 7, 88, 150)] {
+                let options = RenderOptions {
+                    path,
+                    window,
+                    planes: PlaneGroups::all(),
+                    ..RenderOptions::default()
+                };
+                let whole = render(&scene, &options, &Unwatched);
+                let (planes, count) = in_bands(&scene, &options);
+                assert!(count > 1, "{path:?}");
+                assert_eq!(planes.len(), whole.film.planes.len());
+                for (plane, (name, all)) in whole.film.planes.iter().zip(&planes) {
+                    assert!(bits(&plane.samples) == *all, "{name}, {path:?}, {window:?}");
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_band_that_cannot_be_kept_ends_the_frame() {
+    let mut count = 0;
+    let refuse = |_| {
+        count += 1;
+        Err("full")
+    };
+    let refused = render_bands(&scene(SCENE), &RenderOptions::default(), &Unwatched, refuse);
+    assert_eq!(refused.unwrap_err(), "full");
+    assert_eq!(count, 1);
+}
+
+#[test]
+fn one_frame_is_rasterized_and_many_samples_are_cast() {
+    let quickest = |scene: &Scene| {
+        let window = scene.camera.resolution().window();
+        let ways = predict(scene, window);
+        assert!(ways.is_sorted_by(|a, b| a.total() <= b.total()));
+        ways[0]
+    };
+    let plain = SCENE.replace("shadows = true", "");
+    // A shape of 250 000 triangles before 14 400 pixels.
+    let many = plain.replace("around = 24, across = 16", "around = 500, across = 250");
+    let mut scene = scene(&many);
+    let first = quickest(&scene);
+    assert_eq!((first.path, first.preset), (VisibilityPath::Raster, None));
+    scene.samples = SampleGrid::new(16).unwrap();
+    assert_eq!(quickest(&scene).path, VisibilityPath::Cast);
+    // Shadows need a tree on either path.
+    let shadowed = self::scene(SCENE);
+    let window = shadowed.camera.resolution().window();
+    assert!(predict(&shadowed, window).iter().all(|way| way.preset.is_some()));
+}
+
+#[test]
+fn the_program_tells_its_way_and_every_way_gives_the_same_picture() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("scene.toml"), SCENE).unwrap();
+    let run = |file: &str, more: &[&str]| -> Value {
+        let picture = file.replace(".exr", ".png");
+        let arguments = ["render", "scene.toml", "-o", file, "-o", &picture, "--json"];
+        let (status, stdout, stderr) = truecast(folder.path(), &[&arguments, more].concat());
+        assert_eq!(status, 0, "{stderr}");
+        serde_json::from_str(&stdout).unwrap()
+    };
+    let told = run("any.exr", &[]);
+    assert_eq!(told["path_chosen_by"], "prediction");
+    assert_eq!(told["path"], told["predictions"][0]["path"]);
+    assert_eq!(told["preset"], told["predictions"][0]["preset"]);
+    let memory = &told["memory"];
+    assert!(memory["mesh_bytes"].as_u64().unwrap() > 0);
+    assert!(memory["bvh_bytes"].as_u64().unwrap() > 0, "shadows need a tree");
+    assert!(memory["bytes_per_triangle"].as_f64().unwrap() > 36.0);
+
+    // Every moment counts once.
+    let times = told["times_ms"].as_object().unwrap();
+    let stages =
+        ["load", "build", "describe", "visibility", "shade", "develop", "list", "encode", "write"];
+    let sum: f64 = stages.iter().map(|stage| times[*stage].as_f64().unwrap()).sum();
+    assert_eq!(times.len(), stages.len() + 1);
+    assert!(sum <= times["total"].as_f64().unwrap() + 0.01, "{times:?}");
+
+    let read = |file: &str| load_exr(&folder.path().join(file)).unwrap();
+    let any = read("any.exr");
+    for path in ["cast", "raster"] {
+        let file = format!("{path}.exr");
+        let told = run(&file, &["--path", path]);
+        assert_eq!(
+            (told["path"].as_str(), told["path_chosen_by"].as_str()),
+            (Some(path), Some("user"))
+        );
+        let film = read(&file);
+        let png = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+        assert!(png(&format!("{path}.png")) == png("any.png"), "{path}");
+        assert_eq!(film.description, any.description);
+        for plane in &film.planes {
+            let other = any.plane(&plane.name).unwrap();
+            match (&plane.samples, other) {
+                // Which arithmetic decided is the path's own.
+                _ if plane.name == "verdict.level" => {}
+                (Samples::Float(ours), Samples::Float(theirs)) => {
+                    let near = |(a, b): (&f32, &f32)| a == b || a.abs().max(b.abs()) < ZERO;
+                    assert!(ours.iter().zip(theirs).all(near), "{}, {path}", plane.name);
+                }
+                _ => assert!(bits(&plane.samples) == bits(other), "{}, {path}", plane.name),
+            }
+        }
+    }
+    let (status, text, _) = truecast(folder.path(), &["explain", "scene.toml"]);
+    assert_eq!(status, 0);
+    let picked = told["path"].as_str().unwrap();
+    assert!(text.contains(&format!("path       {picked}")), "{text}");
+    assert!(text.contains("bytes per triangle"), "{text}");
+}
