@@ -136,7 +136,8 @@ fn walk<S: Simd, const CERTAIN: bool>(
             Linked::Node(index) => {
                 let node = &frame.tree.nodes[index];
                 let (met, keys) = cone.meet(simd, node);
-                push(simd, met, keys.bitcast::<u32x16<S>>(), &node.children, work);
+                let keys = keys.bitcast::<u32x16<S>>();
+                push(simd, frame, met, keys, &node.children, work);
             }
             Linked::Leaf(leaf) => {
                 draw_leaf::<S, CERTAIN>(simd, frame, &lattice, &cull, leaf, work, memory);
@@ -150,13 +151,21 @@ fn walk<S: Simd, const CERTAIN: bool>(
 
 /// Puts children on the stack, the nearest on top.
 #[inline(always)]
-fn push<S: Simd>(simd: S, met: u32, keys: u32x16<S>, children: &[u32; WIDTH], work: &mut Work) {
+fn push<S: Simd>(
+    simd: S,
+    frame: &Frame<'_>,
+    met: u32,
+    keys: u32x16<S>,
+    children: &[u32; WIDTH],
+    work: &mut Work,
+) {
     let mask = simd.from_bitmask_mask32x16(u64::from(met));
     let keys = simd.compress_u32x16(keys, mask);
     let links = simd.compress_u32x16(u32x16::load_array_ref(simd, children), mask);
     let bottom = work.waiting.len();
     for i in 0..met.count_ones() as usize {
         let (key, link) = (keys.as_slice()[i], links.as_slice()[i]);
+        frame.tree.prefetch(Link(link));
         // Non-negative floats order as their bits do.
         let entry = u64::from(key) << 32 | u64::from(link);
         work.waiting.push(entry);

@@ -78,7 +78,7 @@ pub(super) fn draw<S: Simd, const CERTAIN: bool>(
         samples.block_z[block] = f32x16::load_array_ref(simd, &samples.z_lo[block]).reduce_min();
     }
     if dirty != 0 {
-        samples.narrow();
+        samples.narrow(simd);
     }
 }
 

@@ -8,6 +8,7 @@ use super::frame::SIDE;
 use crate::accel::WIDTH;
 use crate::pixel::{Pixel, Window};
 use crate::visibility::LevelCounts;
+use fearless_simd::{Simd, SimdBase, f32x16};
 
 /// Side of a block, in pixels.
 pub(in crate::cast) const BLOCK: usize = 4;
@@ -147,11 +148,13 @@ impl Samples {
 
     /// Finds the least z and the reach anew.
     #[inline(always)]
-    pub(super) fn narrow(&mut self) {
-        let mut least = self.block_z[0];
-        for z in self.block_z {
-            least = if z < least { z } else { least };
+    pub(super) fn narrow<S: Simd>(&mut self, simd: S) {
+        let mut least = f32x16::from_slice(simd, &self.block_z[..WIDTH]);
+        for q in 1..BLOCKS / WIDTH {
+            let others = f32x16::from_slice(simd, &self.block_z[q * WIDTH..(q + 1) * WIDTH]);
+            least = least.min(others);
         }
+        let least = least.reduce_min();
         self.least_z = least;
         self.reach = if least > LEAST_Z { REACH_PADDING / least } else { f32::INFINITY };
     }
