@@ -2,7 +2,7 @@
 //!
 //! What was found is turned into an answer's shape by `nearest` or `resolve`.
 
-use super::blocks::{BlockGrid, Blocks, NOTHING, SAME_DEPTH};
+use super::blocks::{BlockGrid, Blocks};
 use super::doubt::Doubt;
 use super::draw::{Drawing, Octet};
 use super::frame::Frame;
@@ -146,12 +146,5 @@ impl Tile {
                 doubt,
             );
         }
-    }
-
-    /// The number of the triangle that is visible at a lane, and whether another has the same depth
-    /// there.
-    pub(super) fn winner(&self, block: usize, lane: usize) -> Option<(u32, bool)> {
-        let winner = self.blocks.winner[block].0[lane];
-        (winner != NOTHING).then_some((winner & !SAME_DEPTH, winner & SAME_DEPTH != 0))
     }
 }
