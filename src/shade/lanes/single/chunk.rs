@@ -123,16 +123,15 @@ fn bounds<S: Simd>(simd: S, frame: &Frame<'_>, run: &Run, places: &[Place<S>; CH
         }
     }
     let mut bounds = Bounds::EMPTY;
-    let eye = frame.scene.camera.eye();
     for k in 0..3 {
         bounds.low[k] = low[k].to_array().into_iter().fold(f32::INFINITY, f32::min).into();
         bounds.high[k] = high[k].to_array().into_iter().fold(f32::NEG_INFINITY, f32::max).into();
     }
     let corners = bounds.low.into_iter().chain(bounds.high);
     let slack = corners.fold(0.0_f64, |m, c| m.max(c.abs())) * 4.0 / 16_777_216.0;
-    for k in 0..3 {
-        bounds.low[k] += eye[k] - slack;
-        bounds.high[k] += eye[k] + slack;
+    for (k, eye) in frame.scene.camera.eye().into_iter().enumerate() {
+        bounds.low[k] += eye - slack;
+        bounds.high[k] += eye + slack;
     }
     bounds
 }
