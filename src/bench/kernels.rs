@@ -8,9 +8,9 @@
 use super::workload::{Answer, Variant, Work};
 use crate::accel::{Accelerator, BuildPreset};
 use crate::cast::shadow::ShadowCaster;
-use crate::cast::{CastOptions, cast_nearest_into, cast_with};
+use crate::cast::{CastOptions, Unproven, cast_nearest_into, cast_unproven_into, cast_with};
 use crate::pixel::{Window, for_each_row};
-use crate::raster::{RasterOptions, rasterize_nearest, rasterize_with};
+use crate::raster::{RasterOptions, rasterize_nearest_into, rasterize_with};
 use crate::render::{
     Accuracy, Answerer, Exposure, PlaneGroups, Progress, RenderOptions, Unwatched, VisibilityPath,
     develop, expose, render,
@@ -24,6 +24,11 @@ use crate::visibility::{Counting, LevelCounts, NearestBuffer, VisibilityBuffer};
 use std::cell::RefCell;
 use std::hint::black_box;
 use std::rc::Rc;
+
+/// The caster as it is used, and the same kernel without proof: their times are compared.
+pub const PROVEN: &str = "cast medium";
+/// See [`PROVEN`].
+pub const UNPROVEN: &str = "cast medium, fast";
 
 /// Figures of a tree, the same on every machine.
 #[derive(Clone, Debug, PartialEq)]
@@ -126,11 +131,22 @@ impl Kernels {
                 cast_with(scene, tree, window, counting, options, &|| ())
             })
         };
+        let unproven = Unproven::ALL.map(|unproven| {
+            let simd = self.simd;
+            let name = format!("cast medium, {}", unproven.name());
+            let buffer = empty(window);
+            Variant::new(name, Work::Closest, window.len(), move || {
+                cast_unproven_into(scene, tree, unproven, simd, &mut buffer.borrow_mut());
+                Answer::Nearest(Rc::clone(&buffer))
+            })
+            .unproven()
+        });
         let mut variants = vec![
             cast("cast medium, surfaces", Work::Closest, Counting::Nearest, together),
             cast("cast medium, one by one", Work::Closest, Counting::Nearest, single),
             cast("cast medium, cover", Work::Cover, Counting::All, together),
         ];
+        variants.extend(unproven);
         if let Some(light) = light_of(scene) {
             let shadows = move || Answer::Shadowed(shadowed(scene, tree, nearest, light));
             variants.push(Variant::new("shadow", Work::Any, nearest.covered_pixels(), shadows));
@@ -145,9 +161,10 @@ impl Kernels {
                 rasterize_with(scene, window, counting, options, &|| ())
             })
         };
+        let buffer = empty(window);
         let nearest = move || {
-            let buffer = rasterize_nearest(scene, window, options, &|| ());
-            Answer::Nearest(Rc::new(RefCell::new(buffer)))
+            rasterize_nearest_into(scene, &mut buffer.borrow_mut(), options, &|| ());
+            Answer::Nearest(Rc::clone(&buffer))
         };
         [
             Variant::new("raster", Work::Raster, window.len(), nearest),

@@ -129,6 +129,8 @@ pub struct Variant<'a> {
     pub amount: Amount,
     /// The other program whose work it is; `None` for ours.
     pub program: Option<String>,
+    /// Whether its answers are promised to be exact.
+    pub is_exact: bool,
     run: Box<dyn Fn() -> Answer + 'a>,
 }
 
@@ -140,7 +142,14 @@ impl<'a> Variant<'a> {
         count: usize,
         run: impl Fn() -> Answer + 'a,
     ) -> Self {
-        Self { name: name.into(), work, amount: work.of(count), program: None, run: Box::new(run) }
+        Self {
+            name: name.into(),
+            work,
+            amount: work.of(count),
+            program: None,
+            is_exact: true,
+            run: Box::new(run),
+        }
     }
 
     /// Work that answers what is visible.
@@ -153,9 +162,14 @@ impl<'a> Variant<'a> {
         Self::new(name, work, count, move || Answer::Visibility(run()))
     }
 
-    /// The same as another program's work.
+    /// The same as another program's work, which promises nothing.
     pub fn of(self, program: &str) -> Self {
-        Self { program: Some(program.to_owned()), ..self }
+        Self { program: Some(program.to_owned()), is_exact: false, ..self }
+    }
+
+    /// The same as work that promises nothing, to be compared with.
+    pub fn unproven(self) -> Self {
+        Self { is_exact: false, ..self }
     }
 
     /// Does the work once.

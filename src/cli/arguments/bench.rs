@@ -15,7 +15,7 @@ use truecast::simd::SimdLevel;
 pixel and against exact arithmetic at 200; a variant with a wrong answer gets no time but its number of \
 wrong pixels. A program built with the features `peers` or `embree` times other programs' ray casters \
 beside its own. Exit status: 0 ok; 1 a wrong answer, or slower than the baseline beyond noise; 2 usage; \
-3 bad scene, nothing visible, or a baseline of another scene, size or number of threads; 4 reading or \
+3 bad scene, nothing visible, nothing to measure, or a baseline of another scene, size or number of threads; 4 reading or \
 writing failed; 130 interrupted."
 )]
 pub(in crate::cli) struct BenchArguments {
@@ -56,6 +56,10 @@ pub(in crate::cli) struct BenchArguments {
     /// Kinds of work to measure, separated by commas [default: all]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_enum)]
     pub(in crate::cli) work: Vec<WorkWord>,
+    /// Only variants whose name contains one of these texts, separated by semicolons: `cast
+    /// medium;embree` [default: all]
+    #[arg(long, value_name = "TEXT;...", value_delimiter = ';')]
+    pub(in crate::cli) only: Vec<String>,
     /// Presets by which trees are built and cast at, separated by commas [default: all]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_enum)]
     pub(in crate::cli) preset: Vec<PresetWord>,
@@ -86,6 +90,7 @@ impl BenchArguments {
     pub(in crate::cli) fn options(&self) -> BenchOptions {
         let mut options = BenchOptions {
             rounds: self.rounds,
+            only: self.only.clone(),
             holds_simd: !self.simd.is_empty(),
             ..BenchOptions::default()
         };
