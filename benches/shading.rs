@@ -23,7 +23,7 @@ use truecast::color::LinearRgb;
 use truecast::pixel::Window;
 use truecast::raster::rasterize;
 use truecast::scene::Scene;
-use truecast::shade::{Effects, ShadeOptions, shade, shade_ungated, shade_with};
+use truecast::shade::{Effects, Precision, ShadeOptions, shade, shade_into, shade_ungated};
 use truecast::simd::SimdLevel;
 use truecast::statistics::Statistics;
 use truecast::visibility::{Counting, VisibilityBuffer};
@@ -84,23 +84,34 @@ fn four_spotlights(out: &mut dyn Write) -> io::Result<()> {
     )?;
     writeln!(out, "                               one triangle   of the bare loop      torus")?;
     let views = [(&one, look(&one)), (&many, look(&many))];
-    let mut ways: Vec<Option<SimdLevel>> = vec![None];
-    ways.extend(SimdLevel::available().into_iter().map(Some));
+    let levels = SimdLevel::available();
+    let mut ways = vec![(None, Precision::Double)];
+    ways.extend(levels.iter().map(|&level| (Some(level), Precision::Double)));
+    ways.extend(levels.iter().map(|&level| (Some(level), Precision::Single)));
     let mut loops = vec![Vec::new(); ways.len()];
     let mut times = vec![[const { Vec::new() }; 2]; ways.len()];
+    let pixels = views[0].1.window.len();
+    // Everybody writes to memory that is there already.
+    let (mut radiance, mut planes) = (vec![[0.0; 3]; pixels], planes(pixels));
     for _ in 0..ROUNDS {
-        for (way, simd) in ways.iter().enumerate() {
+        for (way, &(simd, precision)) in ways.iter().enumerate() {
             let level = simd.unwrap_or(SimdLevel::Baseline);
-            loops[way].push(time(|| bare::shade(&one, level)));
+            loops[way].push(time(|| bare::shade(&one, level, &mut planes)));
             for (times, (scene, buffer)) in times[way].iter_mut().zip(&views) {
-                let options = ShadeOptions { simd: *simd, ..ShadeOptions::new(Effects::of(scene)) };
-                times.push(time(|| shade_with(scene, buffer, &options, None, &|| ())));
+                let options = ShadeOptions { effects: Effects::of(scene), simd, precision };
+                let radiance = &mut radiance;
+                times.push(time(|| shade_into(scene, buffer, &options, None, radiance, &|| ())));
             }
         }
     }
     let counts = views.each_ref().map(|(_, buffer)| buffer.covered_pixels() as f64);
-    for (way, simd) in ways.iter().enumerate() {
-        let name = simd.map_or("pixel by pixel".to_owned(), |level| level.to_string());
+    for (way, (simd, precision)) in ways.iter().enumerate() {
+        let name = match simd {
+            None => "pixel by pixel".to_owned(),
+            Some(level) => {
+                format!("{level}, {}", if *precision == Precision::Single { "f32" } else { "f64" })
+            }
+        };
         let speeds: [f64; 2] =
             std::array::from_fn(|view| 1e-6 * counts[view] / median(&times[way][view]));
         let bare = 1e-6 * f64::from(LARGE.0 * LARGE.1) / median(&loops[way]);
@@ -114,10 +125,16 @@ fn four_spotlights(out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
+/// Three planes of f32.
+fn planes(pixels: usize) -> [Vec<f32>; 3] {
+    [vec![0.0; pixels], vec![0.0; pixels], vec![0.0; pixels]]
+}
+
 /// The largest difference between the program and the bare loop, which is asserted to be rounding.
 fn compare(scene: &Scene) -> f64 {
     let shaded = shade(scene, &look(scene), Effects::of(scene), &|| ()).radiance;
-    let bare = bare::shade(scene, SimdLevel::best());
+    let mut bare = planes(shaded.len());
+    bare::shade(scene, SimdLevel::best(), &mut bare);
     let pixels = shaded.iter().enumerate();
     let largest = pixels.fold(0.0_f64, |largest, (i, rgb)| {
         let differences = (0..3).map(|k| (rgb[k] - f64::from(bare[k][i])).abs());

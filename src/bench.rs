@@ -1,13 +1,14 @@
 //! The benchmark: what building, casting, rasterizing, shading and a whole frame cost on a scene,
 //! and no time for a kernel whose answers are wrong.
 //!
-//! `workload` lists the variants, `peers` those of other programs, `reference` says what is right,
+//! `workload` says what a variant is, `kernels` lists ours and `peers` those of other programs, `reference` says what is right,
 //! `rounds` lets the variants take turns, [`crate::statistics`] condenses their times, `rivalry`
 //! puts ours beside the others', `baseline` holds them against an earlier report.
 //! Nothing here decides what is visible. Times are wall-clock times of this process on this machine;
 //! no mean over scenes is given, for it would weigh them by their size.
 
 pub mod baseline;
+pub mod kernels;
 pub mod machine;
 pub mod peers;
 pub mod reference;
@@ -24,12 +25,13 @@ use crate::scene::hash::content_hash;
 use crate::simd::SimdLevel;
 use crate::visibility::Counting;
 use baseline::Compared;
+use kernels::{Kernels, TreeFigures, light_of};
 use machine::Machine;
 use peers::{PeerError, PeerOptions, Peers};
 use reference::Reference;
 use rounds::{Row, take_turns};
 use std::path::PathBuf;
-use workload::{Kernels, TreeFigures, Work, light_of};
+use workload::Work;
 
 /// How a scene is measured.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -40,6 +42,8 @@ pub struct BenchOptions {
     pub audited_pixels: usize,
     /// Which kinds of work.
     pub works: Vec<Work>,
+    /// Only variants whose name contains one of these texts, in any case; empty: all.
+    pub only: Vec<String>,
     /// With which presets trees are built and cast at.
     pub presets: Vec<BuildPreset>,
     /// Whether Embree is held to the subject's instruction set; else it chooses for itself.
@@ -53,12 +57,22 @@ impl BenchOptions {
     pub const STANDARD_ROUNDS: usize = 9;
 }
 
+impl BenchOptions {
+    /// Whether a variant is asked for.
+    pub fn admits(&self, name: &str, work: Work) -> bool {
+        let name = name.to_lowercase();
+        let is_named = |text: &String| name.contains(&text.to_lowercase());
+        self.works.contains(&work) && (self.only.is_empty() || self.only.iter().any(is_named))
+    }
+}
+
 impl Default for BenchOptions {
     fn default() -> Self {
         Self {
             rounds: Self::STANDARD_ROUNDS,
             audited_pixels: 200,
             works: Work::ALL.into(),
+            only: Vec::new(),
             presets: BuildPreset::ALL.into(),
             holds_simd: false,
             embree: None,
@@ -143,6 +157,14 @@ pub enum BenchError {
         /// The scene.
         name: String,
     },
+    /// Nothing that was asked for is there.
+    #[error(
+        "{name}: no variant is asked for; name others with --only and --work, or a scene with a light for `any`"
+    )]
+    NothingToMeasure {
+        /// The scene.
+        name: String,
+    },
     /// A peer that was asked for.
     #[error(transparent)]
     Peer(#[from] PeerError),
@@ -161,15 +183,13 @@ pub fn bench(
 ) -> Result<Measured, BenchError> {
     let window = scene.camera.resolution().window();
     let wants = |work| options.works.contains(&work);
-    let peers = match wants(Work::Closest) {
-        true => {
-            let simd = options.holds_simd.then_some(subject.simd);
-            let asked = PeerOptions { embree: options.embree.clone(), simd };
-            Peers::new(scene, window, &asked)?
-        }
-        false => Peers::default(),
+    let asked = PeerOptions {
+        embree: options.embree.clone(),
+        simd: options.holds_simd.then_some(subject.simd),
+        admits: &|name| options.admits(name, Work::Closest),
     };
-    let kernels = Kernels::new(scene, &options.presets, progress);
+    let peers = Peers::new(scene, window, &asked)?;
+    let kernels = Kernels::new(scene, &options.presets, subject.simd, progress);
     let counting = if wants(Work::Cover) { Counting::All } else { Counting::Nearest };
     let both = [kernels.standard_cast(), &Answerer::Raster]
         .map(|answerer| answerer.see(scene, window, counting, progress));
@@ -187,7 +207,10 @@ pub fn bench(
     };
     let mut variants = kernels.variants(scene, &both[0], exposure.as_ref());
     variants.extend(peers.variants());
-    variants.retain(|variant| wants(variant.work));
+    variants.retain(|variant| options.admits(&variant.name, variant.work));
+    if variants.is_empty() {
+        return Err(BenchError::NothingToMeasure { name: subject.name });
+    }
     variants.sort_by_key(|variant| Work::ALL.iter().position(|&work| work == variant.work));
     let rows = take_turns(&variants, &reference, options.rounds, progress);
     Ok(Measured {

@@ -21,7 +21,9 @@ mod ray;
 pub mod shadow;
 mod single;
 mod strips;
+mod surfaces;
 mod tile;
+mod unproven;
 mod unrounded;
 mod whole;
 
@@ -35,6 +37,8 @@ use crate::visibility::{
 };
 pub use layers::cast_layers;
 pub use nearest::{cast_nearest, cast_nearest_into};
+pub use surfaces::surfaces;
+pub use unproven::{Unproven, cast_unproven, cast_unproven_into};
 
 use candidate::Candidate;
 use memo::{PicturePairs, SamePlane};

@@ -11,6 +11,7 @@ mod explain;
 mod export;
 mod failure;
 mod lobe;
+mod obj_scene;
 mod output;
 mod pixel;
 mod prediction;

@@ -23,13 +23,16 @@ mod exact_row;
 mod frame;
 mod image_plane;
 mod layers;
+mod limbs;
 mod nearest;
 mod octet;
+mod order;
 mod placement;
 mod resolve;
 mod rows;
 mod scan;
 mod screen_box;
+mod shown;
 mod span;
 mod stability;
 mod strips;
@@ -143,14 +146,30 @@ pub fn rasterize_nearest(
     options: RasterOptions,
     done: &(dyn Fn() + Sync),
 ) -> NearestBuffer {
+    let (ids, t) = (Vec::new(), Vec::new());
+    let mut buffer = NearestBuffer { window, ids, t, levels: LevelCounts::default() };
+    rasterize_nearest_into(scene, &mut buffer, options, done);
+    buffer
+}
+
+/// [`rasterize_nearest`] of `buffer.window` into a buffer that was used before: whatever it held is
+/// written over, and its memory is kept.
+pub fn rasterize_nearest_into(
+    scene: &Scene,
+    buffer: &mut NearestBuffer,
+    options: RasterOptions,
+    done: &(dyn Fn() + Sync),
+) {
+    let window = buffer.window;
     let side = options.tile_side.clamp(1, MOST_SIDE);
     let plane = ImagePlane::new(&scene.camera);
     let tiling = Tiling::new(&plane, &scene.mesh, window, side, options.simd);
-    let mut ids = vec![0; window.len()];
-    let mut t = vec![0.0; window.len()];
-    let work = strips(window, side, &mut ids).into_iter().zip(strips(window, side, &mut t));
+    buffer.ids.resize(window.len(), u32::MAX);
+    buffer.t.resize(window.len(), f32::INFINITY);
+    let ids = strips(window, side, &mut buffer.ids);
+    let work = ids.into_iter().zip(strips(window, side, &mut buffer.t)).collect();
     let levels = for_each_strip(
-        work.collect(),
+        work,
         || Tile::new(false),
         |tile, (mut ids, mut t)| {
             let mut levels = LevelCounts::default();
@@ -163,7 +182,7 @@ pub fn rasterize_nearest(
             levels
         },
     );
-    NearestBuffer { window, ids, t, levels: sum(levels) }
+    buffer.levels = sum(levels);
 }
 
 fn sum(levels: Vec<LevelCounts>) -> LevelCounts {

@@ -24,6 +24,7 @@ mod lanes;
 mod lights;
 mod method;
 mod power;
+mod precision;
 mod reach;
 pub mod reflection;
 mod specular;
@@ -39,6 +40,7 @@ pub use doubt::doubts;
 pub use effects::Effects;
 pub use flat_faults::{FlatFault, flat_faults};
 pub use frame::{Asker, Occlusion};
+pub use precision::Precision;
 pub use surface::{SurfacePoint, surface_point};
 pub use terms::{LightTerm, Outcome, Terms};
 pub use watch::{Evaluations, Notes};
@@ -93,13 +95,23 @@ pub struct ShadeOptions {
     /// The instruction set that shades several pixels at once; `None` shades pixel by pixel. It
     /// changes time, never a bit.
     pub simd: Option<SimdLevel>,
+    /// The numbers that it computes with.
+    pub precision: Precision,
 }
 
 impl ShadeOptions {
-    /// With the best instruction set of this machine.
+    /// With the best instruction set of this machine, in f64.
     pub fn new(effects: Effects) -> Self {
-        Self { effects, simd: Some(SimdLevel::best()) }
+        Self { effects, simd: Some(SimdLevel::best()), precision: Precision::Double }
     }
+}
+
+/// How far a pixel of [`Precision::Single`] may be from that of [`Precision::Double`]: this times
+/// Σ_j P_j, where P_j = (kd·Id_j + ks·Is_j)/(a_j + b_j·r_j + c_j·r_j²) is the radiance that light j
+/// would give straight on, plus 2^-20 of the pixel itself. `exponent` is ns, `falloff` the largest
+/// exponent of the lights' cones.
+pub fn single_error(exponent: f64, falloff: f64) -> f64 {
+    lanes::single::ERROR * (1.0 + exponent.sqrt() + falloff.sqrt())
 }
 
 /// As [`shade`] and, with somebody to ask, [`shade_with_shadows`], by instructions of choice.
@@ -110,14 +122,29 @@ pub fn shade_with<'a>(
     occlusion: Option<Occlusion<'a>>,
     done: &(dyn Fn() + Sync),
 ) -> Shaded {
+    let mut radiance = vec![[0.0; 3]; buffer.window.len()];
+    let notes = shade_into(scene, buffer, options, occlusion, &mut radiance, done);
+    Shaded { radiance, notes }
+}
+
+/// As [`shade_with`], into a picture that is there already: one number triple per pixel of the
+/// buffer's window.
+pub fn shade_into<'a>(
+    scene: &'a Scene,
+    buffer: &VisibilityBuffer,
+    options: &ShadeOptions,
+    occlusion: Option<Occlusion<'a>>,
+    radiance: &mut [LinearRgb],
+    done: &(dyn Fn() + Sync),
+) -> Notes {
+    assert_eq!(radiance.len(), buffer.window.len(), "one number triple per pixel");
     let frame = Frame::new(scene, options.effects, occlusion);
     let frame = match options.simd {
-        Some(level) => frame.in_lanes(level),
+        Some(level) => frame.in_lanes(level, options.precision),
         None => frame,
     };
     let kernel = kernel::row_kernel::<Notes>(options.effects);
-    let (radiance, notes) = shade_frame(&frame, kernel, buffer, done, Notes::add);
-    Shaded { radiance, notes }
+    shade_frame(&frame, kernel, buffer, radiance, done, Notes::add)
 }
 
 /// As [`shade`], with the shadows of the lights that cast some: `occlusion` makes an
@@ -141,7 +168,8 @@ pub fn count_evaluations(
 ) -> Evaluations {
     let frame = Frame::new(scene, effects, None);
     let kernel = kernel::row_kernel::<Evaluations>(effects);
-    shade_frame(&frame, kernel, buffer, &|| (), Evaluations::add).1
+    let mut radiance = vec![[0.0; 3]; buffer.window.len()];
+    shade_frame(&frame, kernel, buffer, &mut radiance, &|| (), Evaluations::add)
 }
 
 /// The picture of [`shade`], bit for bit, with every effect forced on: every surface is set up in
@@ -151,7 +179,9 @@ pub fn count_evaluations(
 pub fn shade_ungated(scene: &Scene, buffer: &VisibilityBuffer) -> Vec<LinearRgb> {
     let frame = Frame::ungated(scene);
     let kernel = kernel::row_kernel::<Ungated>(Effects::ALL);
-    shade_frame(&frame, kernel, buffer, &|| (), |_, _| ()).0
+    let mut radiance = vec![[0.0; 3]; buffer.window.len()];
+    shade_frame(&frame, kernel, buffer, &mut radiance, &|| (), |_, _| ());
+    radiance
 }
 
 /// Shades all rows, each with a watcher of its own; the watchers are added up, in any order.
@@ -159,14 +189,14 @@ fn shade_frame<W: Watch + Default + Copy + Send>(
     frame: &Frame<'_>,
     shade_row: RowKernel<W>,
     buffer: &VisibilityBuffer,
+    radiance: &mut [LinearRgb],
     done: &(dyn Fn() + Sync),
     add: fn(&mut W, W),
-) -> (Vec<LinearRgb>, W) {
+) -> W {
     let window = buffer.window;
     let width = window.width() as usize;
     let total = Mutex::new(W::default());
-    let mut radiance = vec![[0.0; 3]; window.len()];
-    pixel::for_each_row(&mut radiance, width, done, |row, out| {
+    pixel::for_each_row(radiance, width, done, |row, out| {
         let mut watch = W::default();
         let visible = &buffer.visible[row * width..][..out.len()];
         shade_row(frame, window, window.y0() + row as u32, visible, out, &mut watch);
@@ -175,11 +205,10 @@ fn shade_frame<W: Watch + Default + Copy + Send>(
             add(&mut total, watch);
         }
     });
-    let total = match total.into_inner() {
+    match total.into_inner() {
         Ok(total) => total,
         Err(poisoned) => poisoned.into_inner(),
-    };
-    (radiance, total)
+    }
 }
 
 /// The radiance of one surface point under all lights of the scene, with every effect on and

@@ -6,6 +6,10 @@
 //! with bounds that hold with and without fused operations, and values that are stored are computed
 //! without them.
 
+mod prefetch;
+
+pub(crate) use prefetch::prefetch;
+
 use fearless_simd::Level;
 use std::fmt;
 use std::str::FromStr;

@@ -90,7 +90,7 @@ struct Attributes {
 }
 
 /// The radiance of the scene of [`one_triangle`], plane by plane.
-pub(crate) fn shade(scene: &Scene, level: SimdLevel) -> [Vec<f32>; 3] {
+pub(crate) fn shade(scene: &Scene, level: SimdLevel, planes: &mut [Vec<f32>; 3]) {
     let material = &scene.materials[0];
     let narrow = |v: [f64; 3]| v.map(|c| c as f32);
     let product = |a: [f64; 3], b: [f64; 3]| narrow([a[0] * b[0], a[1] * b[1], a[2] * b[2]]);
@@ -113,12 +113,10 @@ pub(crate) fn shade(scene: &Scene, level: SimdLevel) -> [Vec<f32>; 3] {
     let attributes = attributes(scene);
     let eye = narrow(scene.camera.eye());
     let size = scene.camera.resolution();
-    let (width, height) = (size.width() as usize, size.height() as usize);
-    let mut planes = [const { Vec::new() }; 3].map(|_: Vec<f32>| vec![0.0; width * height]);
+    let width = size.width() as usize;
     let exponent = material.ns as f32;
     dispatch!(level.dispatched(), simd =>
-        fill(simd, (&spots, &attributes, eye, exponent), width, &mut planes));
-    planes
+        fill(simd, (&spots, &attributes, eye, exponent), width, planes));
 }
 
 fn attributes(scene: &Scene) -> Attributes {
@@ -232,11 +230,13 @@ fn add_spot<S: Simd>(
     let h = normalized(simd, [l[0] + v[0], l[1] + v[1], l[2] + v[2]]);
     let highlight = power(simd, dot(n, h), exponent) * factor;
     let matte = n_dot_l * factor;
-    let colors = spot.diffuse.into_iter().zip(spot.specular);
-    for (channel, (diffuse, specular)) in rgb.iter_mut().zip(colors) {
-        *channel = matte.mul_add(of(diffuse), *channel);
-        *channel = highlight.mul_add(of(specular), *channel);
-    }
+    let [dr, dg, db] = spot.diffuse;
+    let [sr, sg, sb] = spot.specular;
+    *rgb = [
+        highlight.mul_add(of(sr), matte.mul_add(of(dr), rgb[0])),
+        highlight.mul_add(of(sg), matte.mul_add(of(dg), rgb[1])),
+        highlight.mul_add(of(sb), matte.mul_add(of(db), rgb[2])),
+    ];
 }
 
 /// log2(1 + f)/f on √½ … √2, and 2^r on −½ … ½, each to 2·10^-7.
@@ -263,17 +263,15 @@ fn power<S: Simd>(simd: S, x: Lanes<S>, e: f32) -> Lanes<S> {
     let f: Lanes<S> = (bits - (above << 23_u32)).bitcast();
     let f = f - 1.0;
     let whole: Lanes<S> = above.to_float();
-    let mut log = of(LOGARITHM[7]);
-    for c in LOGARITHM.into_iter().rev().skip(1) {
-        log = log.mul_add(f, of(c));
-    }
+    let [c0, c1, c2, c3, c4, c5, c6, c7] = LOGARITHM;
+    let log = f.mul_add(of(c7), of(c6)).mul_add(f, of(c5)).mul_add(f, of(c4)).mul_add(f, of(c3));
+    let log = log.mul_add(f, of(c2)).mul_add(f, of(c1)).mul_add(f, of(c0));
     let t = (log.mul_add(f, whole) * e).max(of(-126.0));
     let rounded = t.round_ties_even();
     let r = t - rounded;
-    let mut fraction = of(POWER[5]);
-    for c in POWER.into_iter().rev().skip(1) {
-        fraction = fraction.mul_add(r, of(c));
-    }
+    let [c0, c1, c2, c3, c4, c5] = POWER;
+    let fraction = r.mul_add(of(c5), of(c4)).mul_add(r, of(c3)).mul_add(r, of(c2));
+    let fraction = fraction.mul_add(r, of(c1)).mul_add(r, of(c0));
     let bits: i32x16<S> = fraction.bitcast();
     let whole: i32x16<S> = rounded.to_int();
     (bits + (whole << 23_u32)).bitcast()

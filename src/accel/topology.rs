@@ -20,8 +20,10 @@ use std::time::Duration;
 const LARGEST_EXPONENT: i32 = 50;
 
 /// A tree over the boxes, at least one.
-pub(super) fn cluster(boxes: &[Bounds], preset: BuildPreset) -> Bvh2 {
-    build_bvh2(&stand_ins(boxes), preset.parameters(), &mut Duration::default())
+pub(super) fn cluster(boxes: Vec<Bounds>, preset: BuildPreset) -> Bvh2 {
+    let stand_ins = stand_ins(&boxes);
+    drop(boxes);
+    build_bvh2(&stand_ins, preset.parameters(), &mut Duration::default())
 }
 
 fn stand_ins(boxes: &[Bounds]) -> Vec<Aabb> {

@@ -150,55 +150,61 @@ impl WideTree {
         pending: &mut Pending,
         mut visit: impl FnMut(&[LeafTriangle]) -> f64,
     ) {
-        let mut reach = f64::INFINITY;
-        let level = pending.level;
-        let waiting = &mut pending.waiting;
-        waiting.clear();
-        waiting.extend(self.roots.iter().rev().map(|&root| (root, 0.0)));
-        while let Some((link, near)) = waiting.pop() {
-            if near > reach {
+        let Pending { waiting, level } = pending;
+        dispatch!(*level, simd => walk(simd, self, copies, line, waiting, &mut visit));
+    }
+}
+
+/// The walk, compiled for one instruction set; what it visits need not be.
+#[inline(always)]
+fn walk<S: Simd>(
+    simd: S,
+    tree: &WideTree,
+    copies: &HashMap<TriangleId, Vec<TriangleId>>,
+    line: &impl MeetsBoxes,
+    waiting: &mut Vec<(Link, f64)>,
+    visit: &mut impl FnMut(&[LeafTriangle]) -> f64,
+) {
+    let mut reach = f64::INFINITY;
+    waiting.clear();
+    waiting.extend(tree.roots.iter().rev().map(|&root| (root, 0.0)));
+    while let Some((link, near)) = waiting.pop() {
+        if near > reach {
+            continue;
+        }
+        let leaf = match link.target() {
+            Linked::Leaf(leaf) => leaf,
+            Linked::Node(index) => {
+                let node = &tree.nodes[index];
+                let there = (1_u32 << node.count.min(WIDTH as u32)) - 1;
+                let met = meet_planes(simd, line, &node.planes, reach);
+                push(waiting, &met, met.boxes & there, &node.children);
                 continue;
             }
-            match link.target() {
-                Linked::Node(index) => {
-                    let node = &self.nodes[index];
-                    let there = (1_u32 << node.count.min(WIDTH as u32)) - 1;
-                    let met = dispatch!(
-                        level, simd => meet_planes(simd, line, &node.planes, reach)
-                    );
-                    push(waiting, &met, met.boxes & there, &node.children);
+        };
+        let mut first = 0;
+        while first < leaf.count {
+            // A mirror image needs that its box behind the eye is let through too.
+            let met = if tree.is_linear || mutant::is(Mutant::MirrorGhost) {
+                Met { near: [0.0; WIDTH], boxes: u32::MAX }
+            } else {
+                meet_triangles(simd, line, tree, leaf, first, reach)
+            };
+            let lanes = (leaf.count - first).min(WIDTH);
+            let mut left = met.boxes & (u32::MAX >> (32 - lanes));
+            while left != 0 {
+                let lane = left.trailing_zeros() as usize;
+                left &= left - 1;
+                if met.near[lane] > reach {
+                    continue;
                 }
-                Linked::Leaf(leaf) => {
-                    let mut first = 0;
-                    while first < leaf.count {
-                        // A mirror image needs that its box behind the eye is let through too.
-                        let met = if self.is_linear || mutant::is(Mutant::MirrorGhost) {
-                            Met { near: [0.0; WIDTH], boxes: u32::MAX }
-                        } else {
-                            dispatch!(
-                                level, simd => meet_triangles(simd, line, self, leaf, first, reach)
-                            )
-                        };
-                        let lanes = (leaf.count - first).min(WIDTH);
-                        let mut left = met.boxes & (u32::MAX >> (32 - lanes));
-                        while left != 0 {
-                            let lane = left.trailing_zeros() as usize;
-                            left &= left - 1;
-                            if met.near[lane] > reach {
-                                continue;
-                            }
-                            let Some((id, vertices)) = self.triangle(leaf, first + lane) else {
-                                continue;
-                            };
-                            let others = if copies.is_empty() { None } else { copies.get(&id) };
-                            let copies = 1 + others.map_or(0, |others| others.len() as u32);
-                            let triangle = LeafTriangle { vertices, id, copies };
-                            reach = visit(std::slice::from_ref(&triangle)) * PADDING;
-                        }
-                        first += WIDTH;
-                    }
-                }
+                let Some((id, vertices)) = tree.triangle(leaf, first + lane) else { continue };
+                let others = if copies.is_empty() { None } else { copies.get(&id) };
+                let copies = 1 + others.map_or(0, |others| others.len() as u32);
+                let triangle = LeafTriangle { vertices, id, copies };
+                reach = visit(std::slice::from_ref(&triangle)) * PADDING;
             }
+            first += WIDTH;
         }
     }
 }

@@ -33,12 +33,13 @@ use std::marker::PhantomData;
 use std::path::PathBuf;
 
 /// Which peers are asked for.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct PeerOptions {
+pub struct PeerOptions<'o> {
     /// The shared library of Embree; without it, whichever version the system finds.
     pub embree: Option<PathBuf>,
     /// The instruction set that Embree is held to; without it, it chooses for itself.
     pub simd: Option<SimdLevel>,
+    /// Whether a variant of this name is asked for: a peer is built if any of its variants is.
+    pub admits: &'o dyn Fn(&str) -> bool,
 }
 
 /// Why a peer cannot be measured.
@@ -61,7 +62,7 @@ pub struct Peers<'a> {
     #[cfg(any(feature = "peers", feature = "embree"))]
     rays: Option<rays::Rays>,
     #[cfg(feature = "peers")]
-    trees: Option<(obvhs::Trees, bvh::Tree, parry::Tree)>,
+    trees: (Option<obvhs::Trees>, Option<bvh::Tree>, Option<parry::Tree>),
     #[cfg(feature = "embree")]
     embree: Option<embree::Scenes<'a>>,
     /// Peers that were left out, with the reason, in words.
@@ -75,16 +76,23 @@ impl<'a> Peers<'a> {
     ///
     /// # Errors
     /// When a library that was asked for by its path cannot be used.
-    pub fn new(scene: &'a Scene, window: Window, options: &PeerOptions) -> Result<Self, PeerError> {
+    pub fn new(
+        scene: &'a Scene,
+        window: Window,
+        options: &PeerOptions<'_>,
+    ) -> Result<Self, PeerError> {
         // Which of these is used is up to the features.
         let _ = (scene, window, options);
         #[cfg(feature = "embree")]
-        let (embree, left_out) = match embree::Scenes::new(&scene.mesh, options) {
-            Ok(scenes) => (Some(scenes), Vec::new()),
-            Err(PeerError::Embree { reason, .. }) if options.embree.is_none() => {
+        let asked = embree::NAMES.into_iter().any(options.admits);
+        #[cfg(feature = "embree")]
+        let (embree, left_out) = match asked.then(|| embree::Scenes::new(&scene.mesh, options)) {
+            None => (None, Vec::new()),
+            Some(Ok(scenes)) => (Some(scenes), Vec::new()),
+            Some(Err(PeerError::Embree { reason, .. })) if options.embree.is_none() => {
                 (None, vec![format!("Embree is not measured: {reason}")])
             }
-            Err(error) => return Err(error),
+            Some(Err(error)) => return Err(error),
         };
         #[cfg(not(feature = "embree"))]
         let left_out = Vec::new();
@@ -92,11 +100,14 @@ impl<'a> Peers<'a> {
             #[cfg(any(feature = "peers", feature = "embree"))]
             rays: Some(rays::Rays::new(&scene.camera, window)),
             #[cfg(feature = "peers")]
-            trees: Some((
-                obvhs::Trees::new(&scene.mesh),
-                bvh::Tree::new(&scene.mesh),
-                parry::Tree::new(&scene.mesh),
-            )),
+            trees: (
+                obvhs::NAMES
+                    .into_iter()
+                    .any(options.admits)
+                    .then(|| obvhs::Trees::new(&scene.mesh)),
+                (options.admits)(bvh::NAME).then(|| bvh::Tree::new(&scene.mesh)),
+                (options.admits)(parry::NAME).then(|| parry::Tree::new(&scene.mesh)),
+            ),
             #[cfg(feature = "embree")]
             embree,
             left_out,
@@ -112,10 +123,11 @@ impl<'a> Peers<'a> {
         )]
         let mut variants = Vec::new();
         #[cfg(feature = "peers")]
-        if let (Some(rays), Some((obvhs, bvh, parry))) = (&self.rays, &self.trees) {
-            variants.extend(obvhs.variants(rays));
-            variants.extend(bvh.variants(rays));
-            variants.push(parry.variant(rays));
+        if let Some(rays) = &self.rays {
+            let (obvhs, bvh, parry) = &self.trees;
+            variants.extend(obvhs.iter().flat_map(|trees| trees.variants(rays)));
+            variants.extend(bvh.iter().map(|tree| tree.variant(rays)));
+            variants.extend(parry.iter().map(|tree| tree.variant(rays)));
         }
         #[cfg(feature = "embree")]
         if let (Some(rays), Some(embree)) = (&self.rays, &self.embree) {

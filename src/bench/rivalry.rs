@@ -1,8 +1,9 @@
 //! Ours beside the others': at the closest hit, the fastest of each.
 //!
 //! Both sides choose their best after the fact, from medians of the same rounds. Only right answers
-//! of ours stand; another program's need not be right.
+//! of ours stand, and none without proof; another program's need not be right.
 
+use super::kernels::{PROVEN, UNPROVEN};
 use super::rounds::Row;
 use super::workload::Work;
 
@@ -21,11 +22,20 @@ pub struct Rivalry {
     pub ratio_of_least: f64,
 }
 
+/// What proof costs: the caster's median time over the same kernel's without proof; `None` where one
+/// of both has no time.
+pub fn price_of_proof(rows: &[Row]) -> Option<f64> {
+    let median =
+        |name: &str| rows.iter().find(|row| row.name == name)?.times.map(|times| times.median);
+    Some(median(PROVEN)? / median(UNPROVEN)?)
+}
+
 /// One per other program that has a time, in the order of the rows; none where ours has none.
 pub fn rivalries(rows: &[Row]) -> Vec<Rivalry> {
     let fastest = |program: Option<&str>| {
         rows.iter()
             .filter(|row| row.work == Work::Closest && row.program.as_deref() == program)
+            .filter(|row| row.is_exact || program.is_some())
             .filter_map(|row| Some((row, row.times?)))
             .min_by(|(_, a), (_, b)| a.median.total_cmp(&b.median))
     };
@@ -62,6 +72,7 @@ mod tests {
             work,
             amount: work.of(1),
             program: program.map(str::to_owned),
+            is_exact: program.is_none() && name != UNPROVEN,
             wrong_pixels: Some(0),
             times: Statistics::of(&times),
             levels: None,
@@ -74,7 +85,8 @@ mod tests {
             row("build", None, Work::Build, &[1]),
             row("slow", None, Work::Closest, &[8, 9, 10]),
             row("wrong", None, Work::Closest, &[]),
-            row("fast", None, Work::Closest, &[4, 4, 5]),
+            row(PROVEN, None, Work::Closest, &[4, 4, 5]),
+            row(UNPROVEN, None, Work::Closest, &[2, 2, 2]),
             row("build of theirs", Some("theirs"), Work::Build, &[1]),
             row("their single", Some("theirs"), Work::Closest, &[30, 30, 30]),
             row("their packet", Some("theirs"), Work::Closest, &[6, 12, 13]),
@@ -82,8 +94,10 @@ mod tests {
         ];
         let found = rivalries(&rows);
         assert_eq!(found.len(), 1);
-        assert_eq!((&*found[0].ours, &*found[0].theirs), ("fast", "their packet"));
+        assert_eq!((&*found[0].ours, &*found[0].theirs), (PROVEN, "their packet"));
         assert_eq!((found[0].ratio, found[0].ratio_of_least), (3.0, 1.5));
         assert_eq!(rivalries(&rows[4..]), []);
+        assert_eq!(price_of_proof(&rows), Some(2.0));
+        assert_eq!(price_of_proof(&rows[4..]), None);
     }
 }

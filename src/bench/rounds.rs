@@ -21,24 +21,28 @@ pub struct Row {
     pub amount: Amount,
     /// The other program whose work it is; `None` for ours.
     pub program: Option<String>,
+    /// Whether its answers are promised to be exact.
+    pub is_exact: bool,
     /// Pixels at which its answer was wrong, the most in any run; `None` for a variant that answers
     /// no question of visibility.
     pub wrong_pixels: Option<usize>,
-    /// Its times; `None` if an answer of ours was wrong. Another program's stand beside its errors.
+    /// Its times; `None` if a promise was broken. Where nothing is promised they stand beside the
+    /// errors.
     pub times: Option<Statistics>,
     /// Decisions per level of arithmetic, where the variant reports them.
     pub levels: Option<LevelCounts>,
 }
 
 impl Row {
-    /// Whether an answer of ours was wrong, which is an error of this program and leaves no time.
+    /// Whether an answer that is promised to be exact was wrong, which is an error of this program
+    /// and leaves no time.
     pub fn has_failed(&self) -> bool {
-        self.program.is_none() && self.wrong_pixels.is_some_and(|wrong| wrong > 0)
+        self.is_exact && self.wrong_pixels.is_some_and(|wrong| wrong > 0)
     }
 }
 
 /// Checks every variant, then times those that have not failed `rounds` times, at least once. A
-/// variant of ours whose answer is wrong in any run has no times.
+/// variant that has failed in any run has no times.
 pub fn take_turns(
     variants: &[Variant<'_>],
     reference: &Reference,
@@ -58,11 +62,12 @@ pub fn take_turns(
                 work: variant.work,
                 amount: variant.amount,
                 program: variant.program.clone(),
+                is_exact: variant.is_exact,
                 wrong_pixels: wrong_pixels(&answer, reference),
                 times: None,
                 levels: match &answer {
                     Answer::Visibility(buffer) => Some(buffer.levels),
-                    Answer::Nearest { levels, .. } => Some(*levels),
+                    Answer::Nearest(buffer) => Some(buffer.borrow().levels),
                     _ => None,
                 },
             }
@@ -91,8 +96,9 @@ pub fn take_turns(
 fn wrong_pixels(answer: &Answer, reference: &Reference) -> Option<usize> {
     match answer {
         Answer::Visibility(buffer) => Some(reference.wrong_pixels(buffer)),
-        Answer::Nearest { window, ids, .. } => {
-            Some(reference.wrong_ids(*window, ids.iter().copied()))
+        Answer::Nearest(buffer) => {
+            let buffer = buffer.borrow();
+            Some(reference.wrong_ids(buffer.window, buffer.ids.iter().copied()))
         }
         Answer::Film(film) => Some(reference.wrong_pixels_of_film(film)),
         Answer::Hits(hits) => Some(reference.wrong_ids(hits.window, hits.ids())),

@@ -5,7 +5,7 @@
 
 use super::coverage::Covering;
 use super::exact::{self, Signed, Vertices};
-use super::filter::{Bounded, U};
+use super::filter::{Bounded, Relative, U};
 use super::memo::SamePlane;
 use super::pair::{PairVector, triple_product};
 use super::ray::Ray;
@@ -150,7 +150,7 @@ pub(super) fn vertices(triangle: &LeafTriangle) -> Vertices {
 }
 
 /// Whether a lies wholly before b; `None` where they meet.
-fn separated(a: [f64; 2], b: [f64; 2]) -> Option<bool> {
+pub(super) fn separated(a: [f64; 2], b: [f64; 2]) -> Option<bool> {
     if a[1] < b[0] {
         Some(true)
     } else if b[1] < a[0] {
@@ -163,8 +163,19 @@ fn separated(a: [f64; 2], b: [f64; 2]) -> Option<bool> {
 /// Bounds of V/D from the filter's values. Numerator and denominator are rounded once each, the
 /// quotient once and the padding once: 4u on each side covers them.
 fn crude_interval(covering: Covering) -> [f64; 2] {
-    let sign = f64::from(covering.sign);
-    let [v, d] = covering.plane_and_speed.map(|b| Bounded { value: b.value * sign, ..b });
+    interval(f64::from(covering.sign), covering.plane_and_speed)
+}
+
+/// Bounds of t where a ray meets the plane of a triangle that it is known to meet, from the filter's
+/// values alone; `None` where they leave sgn V open.
+pub(super) fn plane_interval(ray: &Ray, v: &Vertices) -> Option<[f64; 2]> {
+    let plane_and_speed = Relative::new(ray, v).plane_and_speed(ray);
+    let sign = plane_and_speed[0].sign()?;
+    Some(interval(f64::from(sign), plane_and_speed))
+}
+
+fn interval(sign: f64, plane_and_speed: [Bounded; 2]) -> [f64; 2] {
+    let [v, d] = plane_and_speed.map(|b| Bounded { value: b.value * sign, ..b });
     let lo = if v.value > v.error {
         (v.value - v.error) / (d.value.abs() + d.error) * (1.0 - 4.0 * U)
     } else {

@@ -3,7 +3,7 @@
 use super::CastOptions;
 use super::memo::{PicturePairs, SamePlane};
 use super::strips::strips;
-use super::tile::{self, BLOCK, Frame, Memory, NOTHING, SIDE, Work, lane_of};
+use super::tile::{self, BLOCK, Frame, Memory, NOTHING, SIDE, Samples, Work, lane_of};
 use crate::accel::Accelerator;
 use crate::pixel::Window;
 use crate::scene::Scene;
@@ -50,18 +50,7 @@ pub fn cast_nearest_into(
                 Memory { same_plane: SamePlane::new(&pairs), levels: LevelCounts::default() };
             for window in strip.tiles(SIDE as u32) {
                 let samples = tile::cast_tile(&frame, window, options.simd, work, &mut memory);
-                let first = (window.x0() - strip.x0()) as usize;
-                let columns = first..first + window.width() as usize;
-                match samples {
-                    None => {
-                        ids.iter_mut().for_each(|row| row[columns.clone()].fill(NOTHING));
-                        t.iter_mut().for_each(|row| row[columns.clone()].fill(f32::INFINITY));
-                    }
-                    Some(samples) => {
-                        copy(&samples.ids, &mut ids, columns.clone());
-                        copy(&samples.t, &mut t, columns);
-                    }
-                }
+                write(window, strip, samples, &mut ids, &mut t);
                 done();
             }
             memory.levels
@@ -69,6 +58,28 @@ pub fn cast_nearest_into(
         .collect();
     buffer.levels = LevelCounts::default();
     counts.into_iter().for_each(|levels| buffer.levels.add(levels));
+}
+
+/// Writes a tile's answer to its columns of a strip's rows.
+pub(super) fn write(
+    window: Window,
+    strip: Window,
+    samples: Option<&Samples>,
+    ids: &mut [&mut [u32]],
+    t: &mut [&mut [f32]],
+) {
+    let first = (window.x0() - strip.x0()) as usize;
+    let columns = first..first + window.width() as usize;
+    match samples {
+        None => {
+            ids.iter_mut().for_each(|row| row[columns.clone()].fill(NOTHING));
+            t.iter_mut().for_each(|row| row[columns.clone()].fill(f32::INFINITY));
+        }
+        Some(samples) => {
+            copy(&samples.ids, ids, columns.clone());
+            copy(&samples.t, t, columns);
+        }
+    }
 }
 
 /// Copies a tile's values, kept by blocks, to its columns of a strip's rows.

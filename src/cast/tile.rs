@@ -8,6 +8,8 @@
 //! algorithm*, 2005; edge functions over a tile: J. Pineda, 1988. Here no cover is counted and no
 //! weight computed.
 
+#[cfg(test)]
+mod audit;
 mod cone;
 mod cull;
 mod draw;
@@ -65,7 +67,20 @@ pub(super) fn cast_tile<'a>(
     memory: &mut Memory<'_>,
 ) -> Option<&'a Samples> {
     work.samples.begin();
-    dispatch!(level.dispatched(), simd => walk(simd, frame, window, work, memory));
+    dispatch!(level.dispatched(), simd => walk::<_, true>(simd, frame, window, work, memory));
+    work.samples.drawn.then_some(&work.samples)
+}
+
+/// As [`cast_tile`] by the same kernel without its bounds: f32 is believed.
+pub(super) fn cast_tile_unproven<'a>(
+    frame: &Frame<'_>,
+    window: Window,
+    level: SimdLevel,
+    work: &'a mut Work,
+    memory: &mut Memory<'_>,
+) -> Option<&'a Samples> {
+    work.samples.begin();
+    dispatch!(level.dispatched(), simd => walk::<_, false>(simd, frame, window, work, memory));
     work.samples.drawn.then_some(&work.samples)
 }
 
@@ -75,11 +90,16 @@ const T_WIDTH: f32 = 1.0 / (1 << 18) as f32;
 /// The t of what is visible, for the camera's own direction, by block and lane: to 2^-18; infinite
 /// where nothing is.
 #[inline(always)]
-fn write_t<S: Simd>(simd: S, frame: &Frame<'_>, window: Window, samples: &mut Samples) {
+fn write_t<S: Simd, const CERTAIN: bool>(
+    simd: S,
+    frame: &Frame<'_>,
+    window: Window,
+    samples: &mut Samples,
+) {
     let scale = f64x8::splat(simd, 2.0 * frame.t_per_inverse_z);
     for block in 0..BLOCKS {
         let low = f32x16::load_array_ref(simd, &samples.z_lo[block]);
-        let high = f32x16::load_array_ref(simd, &samples.z_hi[block]);
+        let high = if CERTAIN { f32x16::load_array_ref(simd, &samples.z_hi[block]) } else { low };
         let narrow = (high - low).simd_le(low * f32x16::splat(simd, T_WIDTH));
         let (low_a, low_b) = low.widen();
         let (high_a, high_b) = high.widen();
@@ -89,14 +109,14 @@ fn write_t<S: Simd>(simd: S, frame: &Frame<'_>, window: Window, samples: &mut Sa
         let t = nothing.select(f32x16::splat(simd, f32::INFINITY), both);
         t.store_array(&mut samples.t[block]);
         let wide = !(narrow | nothing).to_bitmask() as u16 & samples.inside[block];
-        if wide != 0 {
+        if CERTAIN && wide != 0 {
             settle::refine_t(frame, window, samples, block, wide);
         }
     }
 }
 
 #[inline(always)]
-fn walk<S: Simd>(
+fn walk<S: Simd, const CERTAIN: bool>(
     simd: S,
     frame: &Frame<'_>,
     window: Window,
@@ -116,27 +136,36 @@ fn walk<S: Simd>(
             Linked::Node(index) => {
                 let node = &frame.tree.nodes[index];
                 let (met, keys) = cone.meet(simd, node);
-                push(simd, met, keys.bitcast::<u32x16<S>>(), &node.children, work);
+                let keys = keys.bitcast::<u32x16<S>>();
+                push(simd, frame, met, keys, &node.children, work);
             }
             Linked::Leaf(leaf) => {
-                draw_leaf(simd, frame, &lattice, &cull, leaf, work, memory);
+                draw_leaf::<S, CERTAIN>(simd, frame, &lattice, &cull, leaf, work, memory);
             }
         }
     }
     if work.samples.drawn {
-        write_t(simd, frame, window, &mut work.samples);
+        write_t::<S, CERTAIN>(simd, frame, window, &mut work.samples);
     }
 }
 
 /// Puts children on the stack, the nearest on top.
 #[inline(always)]
-fn push<S: Simd>(simd: S, met: u32, keys: u32x16<S>, children: &[u32; WIDTH], work: &mut Work) {
+fn push<S: Simd>(
+    simd: S,
+    frame: &Frame<'_>,
+    met: u32,
+    keys: u32x16<S>,
+    children: &[u32; WIDTH],
+    work: &mut Work,
+) {
     let mask = simd.from_bitmask_mask32x16(u64::from(met));
     let keys = simd.compress_u32x16(keys, mask);
     let links = simd.compress_u32x16(u32x16::load_array_ref(simd, children), mask);
     let bottom = work.waiting.len();
     for i in 0..met.count_ones() as usize {
         let (key, link) = (keys.as_slice()[i], links.as_slice()[i]);
+        frame.tree.prefetch(Link(link));
         // Non-negative floats order as their bits do.
         let entry = u64::from(key) << 32 | u64::from(link);
         work.waiting.push(entry);
@@ -151,7 +180,7 @@ fn push<S: Simd>(simd: S, met: u32, keys: u32x16<S>, children: &[u32; WIDTH], wo
 
 /// Draws the triangles of a leaf.
 #[inline(always)]
-fn draw_leaf<S: Simd>(
+fn draw_leaf<S: Simd, const CERTAIN: bool>(
     simd: S,
     frame: &Frame<'_>,
     lattice: &Lattice,
@@ -165,10 +194,10 @@ fn draw_leaf<S: Simd>(
     cull::survivors(simd, cull, frame.tree, leaf, samples.reach, live);
     let mut first = 0;
     while first < live.count {
-        rows::set_up(simd, frame, lattice, live, first, samples.least_z, batch);
+        rows::set_up::<S, CERTAIN>(simd, frame, lattice, live, first, samples.least_z, batch);
         if batch.live != 0 {
             samples.clear(lattice.window);
-            draw::draw(simd, frame, lattice.window, batch, scratch, samples, memory);
+            draw::draw::<S, CERTAIN>(simd, frame, lattice.window, batch, scratch, samples, memory);
         }
         first += crate::accel::GROUP;
     }

@@ -2,6 +2,7 @@
 
 use super::arguments::BenchArguments;
 use super::failure::Failure;
+use super::obj_scene::{is_mesh, scene_of};
 use super::output::{self, Writing};
 use super::progress::Bar;
 use super::render::DEFAULT_SCENE;
@@ -118,7 +119,11 @@ fn load(arguments: &BenchArguments) -> Result<Vec<(Scene, String)>, Failure> {
     let overrides = Overrides { resolution: arguments.size, ..Overrides::default() };
     let mut scenes = Vec::new();
     for path in &arguments.scenes {
-        scenes.push((Scene::load(path, &overrides)?, path.display().to_string()));
+        let scene = match is_mesh(path) {
+            true => scene_of(path, arguments.view(), arguments.size)?,
+            false => Scene::load(path, &overrides)?,
+        };
+        scenes.push((scene, path.display().to_string()));
     }
     if scenes.is_empty() {
         let name = "default.toml";

@@ -1,7 +1,8 @@
 //! The knob *accuracy*: how visibility is decided, on both paths.
 //!
-//! One entry of [`LEVELS`] is one setting; what it does is up to [`Answerer`]. Finding what is
-//! visible is timed, with the tree built before. Colours are compared too, for they show what a wrong
+//! One entry of [`LEVELS`] is one setting; what it does is up to the caster and to [`Answerer`]. Finding
+//! what is visible is timed, with the tree built before: ids and t alone by the caster, which is what
+//! its levels differ in, and whole surfaces by the rasterizer. Colours are compared too, for they show what a wrong
 //! pixel does, but shading is not timed: it is the same for all.
 
 use super::errors::{Counted, Errors, Picture, Seen};
@@ -9,12 +10,14 @@ use super::turns::{Candidate, Output, take_turns};
 use super::{CostOptions, Knob, Measure, reading};
 use crate::accel::BuildPreset;
 use crate::bench::reference::Reference;
+use crate::cast::{self, CastOptions, Unproven};
 use crate::mesh::TriangleId;
 use crate::pixel::Window;
 use crate::raster::{DepthBuffer, DepthFormat, SubpixelBits};
-use crate::render::{Accuracy, Answerer, Progress, Unwatched, VisibilityPath, expose};
+use crate::render::{Answerer, Progress, Unwatched, VisibilityPath, expose};
 use crate::scene::Scene;
 use crate::shade::Effects;
+use crate::simd::SimdLevel;
 use crate::visibility::{Counting, VisibilityBuffer};
 
 pub(super) const NAME: &str = "accuracy";
@@ -28,50 +31,63 @@ const AUDITED_PIXELS: usize = 200;
 /// One level on one path.
 struct Level {
     name: &'static str,
-    path: VisibilityPath,
-    accuracy: fn() -> Accuracy,
+    way: fn() -> Way,
+}
+
+/// How a level finds what is visible.
+enum Way {
+    /// Rays, exactly.
+    Cast,
+    /// Rays, without proof.
+    CastUnproven(Unproven),
+    /// The rasterizer, exactly.
+    Raster,
+    /// The rasterizer of graphics processors.
+    RasterWatertight(SubpixelBits, Option<DepthBuffer>),
+}
+
+impl Way {
+    /// The promise, by its name.
+    fn family(&self) -> &'static str {
+        match self {
+            Self::Cast | Self::Raster => EXACT,
+            Self::CastUnproven(unproven) => unproven.name(),
+            Self::RasterWatertight(..) => "watertight",
+        }
+    }
+
+    /// The name of the level that its time is divided by.
+    fn baseline(&self) -> &'static str {
+        match self {
+            Self::Cast | Self::CastUnproven(_) => "cast exact",
+            Self::Raster | Self::RasterWatertight(..) => "raster exact",
+        }
+    }
 }
 
 /// A rasterizer of graphics processors, with so many bits below the pixel and a depth buffer of so
 /// many bits; 0 keeps its interpolated f32 depth.
-fn watertight<const SUBPIXEL: u32, const DEPTH: u32>() -> Accuracy {
+fn watertight<const SUBPIXEL: u32, const DEPTH: u32>() -> Way {
     let (near, far) = (DepthBuffer::STANDARD_NEAR, DepthBuffer::STANDARD_FAR);
     let format = DepthFormat::of_bits(DEPTH);
-    Accuracy::Watertight {
-        subpixel_bits: SubpixelBits::new(SUBPIXEL).unwrap_or_default(),
-        depth_buffer: format.and_then(|format| DepthBuffer::new(format, near, far)),
-    }
+    Way::RasterWatertight(
+        SubpixelBits::new(SUBPIXEL).unwrap_or_default(),
+        format.and_then(|format| DepthBuffer::new(format, near, far)),
+    )
 }
 
-/// Every level that there is. The first of a path is what the others of it are divided by.
+/// Every level that there is.
 const LEVELS: &[Level] = &[
-    Level { name: "cast exact", path: VisibilityPath::Cast, accuracy: || Accuracy::Exact },
-    Level { name: "raster exact", path: VisibilityPath::Raster, accuracy: || Accuracy::Exact },
-    Level {
-        name: "raster watertight, 12 bits below the pixel",
-        path: VisibilityPath::Raster,
-        accuracy: watertight::<12, 0>,
-    },
-    Level {
-        name: "raster watertight, 8 bits",
-        path: VisibilityPath::Raster,
-        accuracy: watertight::<8, 0>,
-    },
-    Level {
-        name: "raster watertight, 4 bits",
-        path: VisibilityPath::Raster,
-        accuracy: watertight::<4, 0>,
-    },
-    Level {
-        name: "raster watertight, 8 bits, 24-bit depth",
-        path: VisibilityPath::Raster,
-        accuracy: watertight::<8, 24>,
-    },
-    Level {
-        name: "raster watertight, 8 bits, 16-bit depth",
-        path: VisibilityPath::Raster,
-        accuracy: watertight::<8, 16>,
-    },
+    Level { name: "cast exact", way: || Way::Cast },
+    Level { name: "cast double", way: || Way::CastUnproven(Unproven::Double) },
+    Level { name: "cast watertight", way: || Way::CastUnproven(Unproven::Watertight) },
+    Level { name: "cast fast", way: || Way::CastUnproven(Unproven::Fast) },
+    Level { name: "raster exact", way: || Way::Raster },
+    Level { name: "raster watertight, 12 bits below the pixel", way: watertight::<12, 0> },
+    Level { name: "raster watertight, 8 bits", way: watertight::<8, 0> },
+    Level { name: "raster watertight, 4 bits", way: watertight::<4, 0> },
+    Level { name: "raster watertight, 8 bits, 24-bit depth", way: watertight::<8, 24> },
+    Level { name: "raster watertight, 8 bits, 16-bit depth", way: watertight::<8, 16> },
 ];
 
 /// Prices the levels, and says at how many pixels something is visible; `None` where nothing is.
@@ -89,31 +105,25 @@ pub(super) fn knob(
         return None;
     }
     let right = picture(scene, &caster, &both[0]);
-    let answerers: Vec<Answerer> = LEVELS
-        .iter()
-        .map(|level| match ((level.accuracy)(), level.path) {
-            (Accuracy::Exact, VisibilityPath::Cast) => caster.clone(),
-            (Accuracy::Exact, VisibilityPath::Raster) => Answerer::Raster,
-            (Accuracy::Watertight { subpixel_bits, depth_buffer }, _) => {
-                Answerer::Watertight(subpixel_bits, depth_buffer)
-            }
-        })
-        .collect();
+    let ways: Vec<Way> = LEVELS.iter().map(|level| (level.way)()).collect();
     let candidates: Vec<Candidate<'_>> = LEVELS
         .iter()
-        .zip(&answerers)
-        .map(|(level, answerer)| {
-            let first = LEVELS.iter().find(|other| other.path == level.path).unwrap_or(level);
-            let (right, reference) = (&right, &reference);
+        .zip(&ways)
+        .map(|(level, way)| {
+            let (right, reference, caster) = (&right, &reference, &caster);
             Candidate {
                 name: level.name.to_owned(),
-                family: (level.accuracy)().name(),
+                family: way.family(),
                 triangles: scene.mesh.len(),
-                baseline: first.name.to_owned(),
-                run: Box::new(move || see(scene, answerer, window)),
+                baseline: way.baseline().to_owned(),
+                run: Box::new(move || see(scene, caster, way, window)),
                 judge: Box::new(move |output| {
-                    let wrong_pixels = reference.wrong_pixels(&output.buffer);
-                    let found = picture(scene, answerer, &output.buffer);
+                    let buffer = match output {
+                        Output::Surfaces(buffer) | Output::Picture(buffer, _) => buffer,
+                        Output::Nearest(nearest) => cast::surfaces(scene, &nearest),
+                    };
+                    let wrong_pixels = reference.wrong_pixels(&buffer);
+                    let found = picture(scene, &answerer(caster, way), &buffer);
                     Errors { wrong_pixels, ..Errors::of(&found, right, Counted::All) }
                 }),
             }
@@ -123,7 +133,7 @@ pub(super) fn knob(
     let settings = take_turns(&candidates, measure, options.rounds, (NAME, progress));
     let knob = Knob {
         name: NAME,
-        timed: "finding what is visible",
+        timed: "finding what is visible: ids and t by the caster, whole surfaces by the rasterizer",
         against: "the exact answer; depth where both see something, radiance at every pixel",
         measure,
         reading: reading::levels(&settings, reference.covered_pixels()),
@@ -132,9 +142,30 @@ pub(super) fn knob(
     Some((reference.covered_pixels(), knob))
 }
 
-fn see(scene: &Scene, answerer: &Answerer, window: Window) -> Output {
-    let buffer = answerer.answer(scene, window, Counting::Nearest, &|| ());
-    Output { buffer, radiance: None }
+fn see(scene: &Scene, caster: &Answerer, way: &Way, window: Window) -> Output {
+    match (way, caster) {
+        (Way::Cast, Answerer::Cast(tree)) => {
+            let options = CastOptions::default();
+            Output::Nearest(cast::cast_nearest(scene, tree, window, options, &|| ()))
+        }
+        (Way::CastUnproven(unproven), Answerer::Cast(tree)) => {
+            let best = SimdLevel::best();
+            Output::Nearest(cast::cast_unproven(scene, tree, window, *unproven, best))
+        }
+        _ => {
+            let answerer = answerer(caster, way);
+            Output::Surfaces(answerer.answer(scene, window, Counting::Nearest, &|| ()))
+        }
+    }
+}
+
+/// Who answers what the level itself does not: layers, and shadows.
+fn answerer(caster: &Answerer, way: &Way) -> Answerer {
+    match way {
+        Way::Cast | Way::CastUnproven(_) => caster.clone(),
+        Way::Raster => Answerer::Raster,
+        Way::RasterWatertight(bits, depth_buffer) => Answerer::Watertight(*bits, *depth_buffer),
+    }
 }
 
 /// What a user of the picture gets of it: layers, samples, shadows and lights are the path's own.

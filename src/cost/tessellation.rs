@@ -78,10 +78,10 @@ pub(super) fn knob(
                 run: Box::new(move || draw(scene, caster)),
                 judge: Box::new(move |output| {
                     let thing = |id| scene.object_of(id).0 as u32;
-                    let found = Picture {
-                        seen: seen(scene, &output.buffer, thing),
-                        radiance: output.radiance.unwrap_or_default(),
+                    let Output::Picture(buffer, radiance) = output else {
+                        unreachable!("every candidate draws a picture")
                     };
+                    let found = Picture { seen: seen(scene, &buffer, thing), radiance };
                     Errors::of(&found, right, Counted::SameThing)
                 }),
             }
@@ -105,5 +105,5 @@ fn draw(scene: &Scene, caster: &Answerer) -> Output {
     let window = scene.camera.resolution().window();
     let buffer = caster.answer(scene, window, Counting::Nearest, &|| ());
     let radiance = shade(scene, &buffer, Effects::of(scene), &|| ()).radiance;
-    Output { buffer, radiance: Some(radiance) }
+    Output::Picture(buffer, radiance)
 }

@@ -8,15 +8,18 @@ use super::{Measure, Setting};
 use crate::color::LinearRgb;
 use crate::render::Progress;
 use crate::statistics::Statistics;
-use crate::visibility::VisibilityBuffer;
+use crate::visibility::{NearestBuffer, VisibilityBuffer};
 use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 /// What a candidate's timed work hands back.
-pub(super) struct Output {
-    pub(super) buffer: VisibilityBuffer,
-    /// Colours, where they belong to the work.
-    pub(super) radiance: Option<Vec<LinearRgb>>,
+pub(super) enum Output {
+    /// What is visible, with all that is known of it.
+    Surfaces(VisibilityBuffer),
+    /// Ids and t alone.
+    Nearest(NearestBuffer),
+    /// What is visible, and its colours.
+    Picture(VisibilityBuffer, Vec<LinearRgb>),
 }
 
 /// A setting before it has a price.

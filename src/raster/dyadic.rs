@@ -80,7 +80,7 @@ impl Scaled {
         let (mut value, mut left) = (self.mantissa, self.exponent);
         while left != 0 && value != 0.0 && value.is_finite() {
             let step = left.clamp(-1000, 1000);
-            value *= 2.0_f64.powi(step as i32);
+            value *= f64::from_bits(((1023 + step) as u64) << 52);
             left -= step;
         }
         value

@@ -12,8 +12,8 @@ use std::cmp::Ordering;
 
 /// Most bits of A and B, and of 2C, in the i128 copy. The doubled sample coordinates 2x and 2y are
 /// below 2^17 (`pixel::MAX_SIDE` is 2^16), so |A·2x| + |B·2y| + |2C| < 3·2^125 < 2^127.
-const SLOPE_BITS: usize = 108;
-const OFFSET_BITS: usize = 125;
+pub(super) const SLOPE_BITS: usize = 108;
+pub(super) const OFFSET_BITS: usize = 125;
 
 /// A row A·x + B·y + C with integer coefficients.
 pub(super) struct ExactRow {
@@ -103,7 +103,7 @@ impl ExactRow {
 }
 
 /// Twice the sample's coordinates: 2i + 1 and 2j + 1.
-fn doubled(pixel: Pixel) -> [i128; 2] {
+pub(super) fn doubled(pixel: Pixel) -> [i128; 2] {
     let half = i128::from(!mutant::is(Mutant::CornerSamples));
     [i128::from(pixel.x) * 2 + half, i128::from(pixel.y) * 2 + half]
 }

@@ -51,17 +51,21 @@ fn write_blocks<S: Simd>(
             let width = side.min(right - from);
             let rows = row * side..(row * side + side).min(window.height() as usize);
             for (line, row) in rows.enumerate() {
-                let (ids, t) = (&mut ids.rows[row][from..], &mut t.rows[row][from..]);
-                let (new_ids, new_t) = (&block_ids.0[line * 4..], &block_t.0[line * 4..]);
-                if width == side {
-                    ids[..4].copy_from_slice(&new_ids[..4]);
-                    t[..4].copy_from_slice(&new_t[..4]);
-                } else {
-                    ids[..width].copy_from_slice(&new_ids[..width]);
-                    t[..width].copy_from_slice(&new_t[..width]);
-                }
+                put(&mut ids.rows[row][from..], line, &block_ids, width);
+                put(&mut t.rows[row][from..], line, &block_t, width);
             }
         }
+    }
+}
+
+/// Copies a line of a block, or its first pixels.
+#[inline(always)]
+fn put<T: Copy>(to: &mut [T], line: usize, lanes: &Lanes<T>, width: usize) {
+    let first = (line * BLOCK_SIDE as usize) & 12;
+    let line = [lanes.0[first], lanes.0[first + 1], lanes.0[first + 2], lanes.0[first + 3]];
+    match to.first_chunk_mut() {
+        Some(whole) if width == line.len() => *whole = line,
+        _ => to.iter_mut().zip(line).take(width).for_each(|(to, value)| *to = value),
     }
 }
 

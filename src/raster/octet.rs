@@ -21,7 +21,7 @@ pub(super) struct Lanes<T>(pub(super) [T; 16]);
 pub(super) struct Corners([Lanes<f32>; 5]);
 
 impl Corners {
-    pub(super) fn new() -> Self {
+    pub(super) const fn new() -> Self {
         Self([Lanes([0.0; 16]); 5])
     }
 

@@ -12,6 +12,7 @@ use super::bounds::Region;
 use super::frame::{FRONT, Frame};
 use super::image_plane::ImagePlane;
 use super::octet::{Corners, Images, Lanes, OCTET, Plane, Triple};
+use super::order::{self, Order};
 use super::rows::U;
 use super::screen_box::ScreenBoxes;
 use super::tile_lists::{Grid, Listed, TileLists};
@@ -23,8 +24,12 @@ use fearless_simd::prelude::*;
 use fearless_simd::{dispatch, f64x8, mask64x8};
 use rayon::prelude::*;
 
-/// Triangles per parallel step: their (tile, triangle) pairs fit a second-level cache.
-const CHUNK: u32 = 1 << 15;
+/// Parallel steps: enough for many threads, few enough lists per tile. The number of threads has no
+/// say, so that the order of the work is always the same.
+const CHUNKS: u32 = 64;
+
+/// Fewest triangles per parallel step: what a step costs by itself is spread over them.
+const LEAST_CHUNK: u32 = 1 << 12;
 
 /// A triangle that meets more tiles than this is held against each of them by its edges.
 const FEW_TILES: u32 = 4;
@@ -52,6 +57,8 @@ struct Chunk {
     /// Triangles of tile i: `ids[starts[i]..starts[i + 1]]`.
     starts: Vec<u32>,
     ids: Vec<u32>,
+    /// Their least w (`order::key`).
+    keys: Vec<u16>,
     /// Triangles that every tile must look at.
     everywhere: Vec<u32>,
     hard: Vec<u32>,
@@ -69,10 +76,11 @@ impl Placement {
     ) -> Self {
         let grid = Grid::new(window, side);
         let count = mesh.len() as u32;
-        let chunks: Vec<Chunk> = (0..count.div_ceil(CHUNK))
+        let length = count.div_ceil(CHUNKS).next_multiple_of(OCTET as u32).max(LEAST_CHUNK);
+        let chunks: Vec<Chunk> = (0..count.div_ceil(length))
             .into_par_iter()
             .map(|chunk| {
-                let ids = chunk * CHUNK..count.min((chunk + 1).saturating_mul(CHUNK));
+                let ids = chunk * length..count.min((chunk + 1).saturating_mul(length));
                 let placing = Placing::new(frame, mesh, window, grid, ids.len());
                 dispatch!(simd.dispatched(), simd => placing.chunk(simd, ids))
             })
@@ -90,14 +98,14 @@ impl Placement {
         Self { grid, chunks, hard, hard_lists }
     }
 
-    /// Puts the triangles of a tile into `ids`, in no particular order, but for the hard ones.
-    pub(super) fn triangles(&self, tile: Window, ids: &mut Vec<u32>) {
+    /// Lists the triangles of a tile, but for the hard ones.
+    pub(super) fn triangles(&self, tile: Window, order: &mut Order) {
         let index = self.grid.index(tile);
-        ids.clear();
+        order.clear();
         for chunk in &self.chunks {
             let (from, to) = (chunk.starts[index] as usize, chunk.starts[index + 1] as usize);
-            ids.extend_from_slice(&chunk.ids[from..to]);
-            ids.extend_from_slice(&chunk.everywhere);
+            order.extend(&chunk.ids[from..to], &chunk.keys[from..to]);
+            order.extend_first(&chunk.everywhere);
         }
     }
 
@@ -109,6 +117,15 @@ impl Placement {
     }
 }
 
+/// Eight triangles to be placed by their edges.
+struct Octet<'a, S: Simd> {
+    first: u32,
+    tiles: &'a [Lanes<i32>; 2],
+    images: &'a Images<S>,
+    plane: &'a Plane<S>,
+    keys: &'a [u16; 8],
+}
+
 /// A chunk at work.
 struct Placing<'a> {
     frame: &'a Frame,
@@ -116,8 +133,8 @@ struct Placing<'a> {
     window: Window,
     grid: Grid,
     most_pairs: usize,
-    /// (tile, triangle).
-    pairs: Vec<(u32, u32)>,
+    /// (tile, triangle, key).
+    pairs: Vec<(u32, u32, u16)>,
     everywhere: Vec<u32>,
     hard: Vec<u32>,
 }
@@ -185,6 +202,7 @@ impl<'a> Placing<'a> {
             left &= left - 1;
         }
         lanes &= !hard;
+        let keys = keys(simd, &images, front);
         let mut large = 0_u64;
         let mut left = lanes;
         while left != 0 {
@@ -200,26 +218,20 @@ impl<'a> Placing<'a> {
             for row in y0..=y1 {
                 for column in x0..=x1 {
                     let tile = row as u32 * self.grid.columns + column as u32;
-                    self.pairs.push((tile, first + lane as u32));
+                    self.pairs.push((tile, first + lane as u32, keys[lane]));
                 }
             }
         }
         if large != 0 {
-            self.by_edges(simd, first, large, &tiles, &images, &plane);
+            let octet = Octet { first, tiles: &tiles, images: &images, plane: &plane, keys: &keys };
+            self.by_edges(simd, large, &octet);
         }
     }
 
     /// The tiles of large triangles: those of the box that no edge excludes.
     #[inline(always)]
-    fn by_edges<S: Simd>(
-        &mut self,
-        simd: S,
-        first: u32,
-        large: u64,
-        tiles: &[Lanes<i32>; 2],
-        images: &Images<S>,
-        plane: &Plane<S>,
-    ) {
+    fn by_edges<S: Simd>(&mut self, simd: S, large: u64, octet: &Octet<'_, S>) {
+        let Octet { first, tiles, images, plane, keys } = *octet;
         let inside = f64x8::splat(simd, 1.0).copysign(plane.volume);
         let (edges, pairs) = (images.edges(), images.size_products());
         let mut rows = [[[0.0_f64; 8]; 4]; 3];
@@ -262,7 +274,7 @@ impl<'a> Placing<'a> {
                     let mut met = met & ((1_u64 << (x1 - column + 1).min(8)) - 1);
                     while met != 0 {
                         let tile = row as u32 * self.grid.columns + column as u32;
-                        self.pairs.push((tile + met.trailing_zeros(), id));
+                        self.pairs.push((tile + met.trailing_zeros(), id, keys[lane]));
                         met &= met - 1;
                     }
                     column += 8;
@@ -274,21 +286,35 @@ impl<'a> Placing<'a> {
     /// The pairs, sorted by tile.
     fn sorted(self) -> Chunk {
         let mut starts = vec![0_u32; self.grid.len() + 2];
-        for &(tile, _) in &self.pairs {
+        for &(tile, ..) in &self.pairs {
             starts[tile as usize + 2] += 1;
         }
         for tile in 2..starts.len() {
             starts[tile] += starts[tile - 1];
         }
         // `starts[i + 1]` runs from the start of tile i to its end.
-        let mut ids = vec![0; self.pairs.len()];
-        for &(tile, id) in &self.pairs {
+        let (mut ids, mut keys) = (vec![0; self.pairs.len()], vec![0; self.pairs.len()]);
+        for &(tile, id, key) in &self.pairs {
             let next = &mut starts[tile as usize + 1];
-            ids[*next as usize] = id;
+            (ids[*next as usize], keys[*next as usize]) = (id, key);
             *next += 1;
         }
-        Chunk { starts, ids, everywhere: self.everywhere, hard: self.hard }
+        Chunk { starts, ids, keys, everywhere: self.everywhere, hard: self.hard }
     }
+}
+
+/// Keys of the least w of the triangles that have a certain one.
+#[inline(always)]
+fn keys<S: Simd>(simd: S, images: &Images<S>, front: u64) -> [u16; 8] {
+    let [a, b, c] = &images.points;
+    let least = a[2].min(b[2]).min(c[2]);
+    let mut lanes = [0.0; 16];
+    least.narrow(f64x8::splat(simd, 0.0)).store_slice(&mut lanes);
+    let mut keys = [0; 8];
+    for (lane, key) in keys.iter_mut().enumerate() {
+        *key = if front >> lane & 1 == 1 { order::key(lanes[lane]) } else { 0 };
+    }
+    keys
 }
 
 /// Triangles that are certainly so far before the eye that their screen box is computed, and

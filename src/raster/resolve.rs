@@ -1,20 +1,30 @@
 //! The answer's numbers for the visible triangle of each pixel.
 //!
 //! They depend on (triangle, pixel) alone, never on the order of the work: weights and t come from
-//! the triangle's integer rows, the level from its f64 rows over the whole frame.
+//! the triangle's integer rows, the level from its f64 rows over the whole frame. Pixels of one
+//! triangle in a block are answered eight at a time, without fused operations; where that leaves a
+//! doubt, one by one.
 
-use super::blocks;
+use super::blocks::{self, BLOCK_SIDE, NOTHING, SAME_DEPTH};
 use super::coverage::{Coverage, coverage};
 use super::doubt::Doubt;
 use super::exact::ExactTriangle;
+use super::exact_row::doubled;
 use super::rows::{TriangleRows, U};
+use super::shown::Shown;
 use super::strips::Strip;
 use super::tile::{Tile, Tiling};
 use crate::mesh::{Barycentric, TriangleId};
 use crate::mutant::{self, Mutant};
 use crate::pixel::Pixel;
 use crate::visibility::{Cover, Facing, Level, LevelCounts, Visible};
+use fearless_simd::prelude::*;
+use fearless_simd::{dispatch, f64x8};
 use std::rc::Rc;
+
+/// What a tile's visible triangles have in common for all their pixels, by number; the inner `None`
+/// where only the exact stage answers.
+type Known = Vec<Option<Option<Rc<(TriangleRows, Shown)>>>>;
 
 /// Turns a tile's z-buffer into visible triangles, and writes what was counted.
 pub(super) fn write(
@@ -25,27 +35,30 @@ pub(super) fn write(
     cover: Option<&mut Strip<'_, Cover>>,
 ) {
     let (grid, window) = (&tiling.blocks, doubt.window);
-    let mut last: Option<(u32, Rc<TriangleRows>, Rc<ExactTriangle>)> = None;
-    for pixel in window.pixels() {
-        let (block, lane) = blocks::place(grid, window, pixel);
-        let Some((number, same_depth)) = tile.winner(block, lane) else { continue };
-        let drawn = &tile.drawn[number as usize];
-        // Neighbouring pixels mostly show the same triangle.
-        let known = match last.take() {
-            Some(known) if known.0 == drawn.id => Some(known),
-            _ => doubt.rows_of(&tile.drawn, number).and_then(|rows| {
-                let exact = doubt.exact.triangle(TriangleId::new(drawn.id))?;
-                Some((drawn.id, rows, exact))
-            }),
-        };
-        let Some((id, rows, triangle)) = known else { continue };
-        // What the visible triangle's own coverage takes; counted when it was decided.
-        let mut counted = LevelCounts::default();
-        let covered = coverage(&mut doubt.exact, &mut counted, &rows, [true; 3], pixel);
-        let covered = covered.unwrap_or(Coverage { exact: true, on_edge: true });
-        visible.row_from(pixel)[0] =
-            Some(answer(pixel, TriangleId::new(id), covered, same_depth, &triangle));
-        last = Some((id, rows, triangle));
+    let mut known: Known = vec![None; tile.drawn.len()];
+    let side = BLOCK_SIDE as usize;
+    for row in 0..(window.height() as usize).div_ceil(side) {
+        for column in 0..(window.width() as usize).div_ceil(side) {
+            let block = row * grid.per_side + column;
+            let winners = tile.blocks.winner[block].0;
+            let mut left = (0..16).filter(|&lane| winners[lane] != NOTHING).fold(0_u32, bit);
+            while left != 0 {
+                // All lanes of one winner together.
+                let number = winners[left.trailing_zeros() as usize] & !SAME_DEPTH;
+                let same = (0..16).filter(|&lane| winners[lane] & !SAME_DEPTH == number);
+                let lanes = same.fold(0, bit);
+                left &= !lanes;
+                write_lanes(
+                    tiling,
+                    tile,
+                    doubt,
+                    &mut known,
+                    visible,
+                    [block, number as usize],
+                    lanes,
+                );
+            }
+        }
     }
     if let Some(cover) = cover {
         for pixel in window.pixels() {
@@ -53,6 +66,107 @@ pub(super) fn write(
             cover.row_from(pixel)[0] = tile.blocks.cover(block, lane);
         }
     }
+}
+
+fn bit(bits: u32, lane: usize) -> u32 {
+    bits | 1 << lane
+}
+
+/// Weights, t and whether both and the coverage are known without the exact stage, of eight lanes.
+#[derive(Default)]
+struct Eight {
+    weights: [[f64; 8]; 3],
+    t: [f64; 8],
+    known: u64,
+}
+
+/// Writes one triangle's lanes of a block.
+fn write_lanes(
+    tiling: &Tiling<'_>,
+    tile: &Tile,
+    doubt: &mut Doubt<'_>,
+    known: &mut Known,
+    visible: &mut Strip<'_, Option<Visible>>,
+    [block, number]: [usize; 2],
+    lanes: u32,
+) {
+    let id = TriangleId::new(tile.drawn[number].id);
+    let triangle = known[number].get_or_insert_with(|| {
+        let shown = Shown::new(tiling.plane, tiling.mesh.triangle(id))?;
+        let rows = doubt.rows_of(&tile.drawn, number as u32)?;
+        Some(Rc::new((rows.as_ref().clone(), shown)))
+    });
+    let triangle = triangle.clone();
+    for half in 0..2 {
+        let mut left = lanes >> (8 * half) & 0xff;
+        if left == 0 {
+            continue;
+        }
+        let eight = match triangle.as_deref() {
+            Some((rows, shown)) => {
+                let first = blocks::pixel(&tiling.blocks, doubt.window, block, 8 * half);
+                let simd = tiling.simd.dispatched();
+                dispatch!(simd, simd => eight(simd, rows, shown, first))
+            }
+            None => Eight::default(),
+        };
+        while left != 0 {
+            let lane = left.trailing_zeros() as usize & 7;
+            left &= left - 1;
+            let pixel = blocks::pixel(&tiling.blocks, doubt.window, block, 8 * half + lane);
+            let same_depth = tile.blocks.winner[block].0[8 * half + lane] & SAME_DEPTH != 0;
+            let answer = match triangle.as_deref() {
+                Some((_, shown)) if eight.known >> lane & 1 == 1 => {
+                    let covered = Coverage { exact: false, on_edge: false };
+                    let weights = [0, 1, 2].map(|k| eight.weights[k][lane]);
+                    let numbers = (shown.volume_sign, mutant::shifted(weights), eight.t[lane]);
+                    Some(assembled(id, covered, same_depth, numbers))
+                }
+                _ => one(doubt, tile, number, pixel, same_depth),
+            };
+            visible.row_from(pixel)[0] = answer;
+        }
+    }
+}
+
+/// The lanes from a pixel on: four of its row and four of the next.
+#[inline(always)]
+fn eight<S: Simd>(simd: S, rows: &TriangleRows, shown: &Shown, first: Pixel) -> Eight {
+    let [x, y] = first.sample();
+    let steps_x = f64x8::from_slice(simd, &[0.0, 1.0, 2.0, 3.0, 0.0, 1.0, 2.0, 3.0]);
+    let steps_y = f64x8::from_slice(simd, &[0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0]);
+    let [x2, y2] = doubled(first).map(|c| c as f64);
+    let (weights, t, mut known) = shown.at(simd, steps_x * 2.0 + x2, steps_y * 2.0 + y2);
+    let (x, y) = (steps_x + x, steps_y + y);
+    for edge in &rows.edges {
+        let value = (x * edge.a + y * edge.b) + edge.c;
+        known &= value.simd_gt(f64x8::splat(simd, edge.bound)).to_bitmask();
+    }
+    let mut eight = Eight { known, ..Eight::default() };
+    for (weights, lanes) in weights.iter().zip(&mut eight.weights) {
+        weights.store_slice(lanes);
+    }
+    t.store_slice(&mut eight.t);
+    eight
+}
+
+/// The answer for one pixel by the exact stage.
+#[cold]
+fn one(
+    doubt: &mut Doubt<'_>,
+    tile: &Tile,
+    number: usize,
+    pixel: Pixel,
+    same_depth: bool,
+) -> Option<Visible> {
+    let id = TriangleId::new(tile.drawn[number].id);
+    let rows = doubt.rows_of(&tile.drawn, number as u32)?;
+    // What the visible triangle's own coverage takes; counted when it was decided.
+    let mut counted = LevelCounts::default();
+    let covered = coverage(&mut doubt.exact, &mut counted, &rows, [true; 3], pixel);
+    let covered = covered.unwrap_or(Coverage { exact: true, on_edge: true });
+    let triangle = doubt.exact.triangle(id)?;
+    Some(answer(pixel, id, covered, same_depth, &triangle))
 }
 
 /// The answer for one triangle at one pixel.
@@ -63,17 +177,27 @@ pub(super) fn answer(
     same_depth: bool,
     triangle: &ExactTriangle,
 ) -> Visible {
-    // t is off by at most 6u; the factors' own roundings and products take 2u more.
-    let t = triangle.t_at(pixel);
+    let numbers = (triangle.volume_sign, triangle.weights_at(pixel), triangle.t_at(pixel));
+    assembled(id, covered, same_depth, numbers)
+}
+
+/// Puts sgn V, weights and t into the answer's shape.
+fn assembled(
+    id: TriangleId,
+    covered: Coverage,
+    same_depth: bool,
+    (volume_sign, weights, t): (i32, [f64; 3], f64),
+) -> Visible {
     let on_edge = covered.on_edge && !mutant::is(Mutant::UnmarkedTies);
     let tie = on_edge || same_depth;
-    let front = (triangle.volume_sign < 0) != mutant::is(Mutant::FacingFlipped);
+    let front = (volume_sign < 0) != mutant::is(Mutant::FacingFlipped);
     Visible {
         triangle: id,
         facing: if front { Facing::Front } else { Facing::Back },
         level: if covered.exact || tie { Level::Exact } else { Level::Double },
         tie,
-        barycentric: Barycentric(triangle.weights_at(pixel)),
+        barycentric: Barycentric(weights),
+        // t is off by at most 6u; the factors' own roundings and products take 2u more.
         t_lo: t * (1.0 - 12.0 * U),
         t_hi: t * (1.0 + 12.0 * U),
     }

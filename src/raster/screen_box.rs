@@ -81,8 +81,7 @@ impl<S: Simd> ScreenBoxes<S> {
         (tiles, (empty | empty >> 8) & 0xff)
     }
 
-    /// First and last block of 4 × 4 pixels, counted from the window's first pixel, and the triangles
-    /// that have none.
+    /// First and last block of 4 × 4 pixels, counted from the window's first pixel.
     #[inline(always)]
     pub(super) fn blocks(
         &self,
@@ -91,13 +90,32 @@ impl<S: Simd> ScreenBoxes<S> {
         front: u64,
         first: &mut Lanes<i32>,
         last: &mut Lanes<i32>,
-    ) -> u64 {
+    ) -> Met<S> {
         let [from, to] = self.pixels(simd, images, front);
         let empty = from.simd_gt(to).to_bitmask();
-        for (bound, blocks) in [(from, first), (to, last)] {
-            let block: i32x16<S> = ((bound - self.first) * 0.25).to_int();
+        let few = (to - from).simd_le(1.0).to_bitmask();
+        let from = from - self.first;
+        for (bound, blocks) in [(from, first), (to - self.first, last)] {
+            let block: i32x16<S> = (bound * 0.25).to_int();
             block.store_slice(&mut blocks.0);
         }
-        (empty | empty >> 8) & 0xff
+        let (x, y) = from.split();
+        Met {
+            none: (empty | empty >> 8) & 0xff,
+            few: few & few >> 8 & 0xff,
+            x: x.combine(x),
+            y: y.combine(y),
+        }
     }
+}
+
+/// The pixels of a window that eight triangles can meet.
+pub(super) struct Met<S: Simd> {
+    /// Triangles that meet none.
+    pub(super) none: u64,
+    /// Triangles that meet at most 2 × 2.
+    pub(super) few: u64,
+    /// First column and row, from the window's first, in both halves of a vector.
+    pub(super) x: f32x16<S>,
+    pub(super) y: f32x16<S>,
 }

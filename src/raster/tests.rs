@@ -1,6 +1,7 @@
 //! The f64 filters against the integers, on inputs made to be nearly zero.
 
 mod lanes;
+mod shown;
 
 use super::bins::set_up;
 use super::bounds::{Rectangle, Region, pixels_of};

@@ -2,18 +2,22 @@
 //!
 //! What was found is turned into an answer's shape by `nearest` or `resolve`.
 
-use super::blocks::{BlockGrid, Blocks, NOTHING, SAME_DEPTH};
+use super::blocks::{BlockGrid, Blocks};
 use super::doubt::Doubt;
 use super::draw::{Drawing, Octet};
 use super::frame::Frame;
 use super::image_plane::ImagePlane;
 use super::octet::{Corners, OCTET};
+use super::order::Order;
 use super::placement::Placement;
-use super::tile_rows::{Drawn, TileFrame, TileRows};
+use super::tile_rows::{Drawn, TileFrame, TileRows, is_hidden};
 use crate::mesh::TriangleMesh;
 use crate::pixel::Window;
 use crate::simd::SimdLevel;
 use fearless_simd::{Simd, dispatch};
+
+/// Octets whose corners are read at once: 2.5 kB.
+const AHEAD: usize = 8;
 
 /// What the tiles of a frame share.
 pub(super) struct Tiling<'a> {
@@ -46,10 +50,10 @@ pub(super) struct Tile {
     /// The triangles that were drawn, by number.
     pub(super) drawn: Vec<Drawn>,
     counting: bool,
-    triangles: Vec<u32>,
+    order: Order,
     drawing: Drawing,
     rows: TileRows,
-    corners: Corners,
+    corners: Box<[Corners; AHEAD]>,
 }
 
 impl Tile {
@@ -58,10 +62,10 @@ impl Tile {
             blocks: Blocks::new(counting),
             drawn: Vec::new(),
             counting,
-            triangles: Vec::new(),
+            order: Order::default(),
             drawing: Drawing::new(),
             rows: TileRows::new(),
-            corners: Corners::new(),
+            corners: Box::new([const { Corners::new() }; AHEAD]),
         }
     }
 
@@ -70,7 +74,8 @@ impl Tile {
         let mut doubt = Doubt::new(tiling.plane, &tiling.frame, tiling.mesh, window);
         self.blocks.clear(&tiling.blocks, window);
         self.drawn.clear();
-        tiling.placement.triangles(window, &mut self.triangles);
+        tiling.placement.triangles(window, &mut self.order);
+        self.order.sort();
         match self.counting {
             false => dispatch!(tiling.simd.dispatched(), simd => {
                 self.draw_octets::<_, true, false>(simd, tiling, window, &mut doubt);
@@ -94,10 +99,20 @@ impl Tile {
         doubt: &mut Doubt<'_>,
     ) {
         let place = TileFrame::new(simd, &tiling.frame, &tiling.blocks, window);
-        for octet in self.triangles.chunks(OCTET) {
-            for (lane, &id) in octet.iter().enumerate() {
-                self.corners.set(lane, tiling.mesh, id);
+        let mut class = 0;
+        for (index, octet) in self.order.sorted().chunks(OCTET).enumerate() {
+            let least_w = self.order.least_w(index * OCTET, &mut class);
+            if !COUNTING && is_hidden(least_w, self.blocks.farthest_of_all) {
+                break;
             }
+            // Read many triangles at once, so that their ways to memory overlap.
+            if index % AHEAD == 0 {
+                let ahead = self.order.sorted()[index * OCTET..].iter().take(AHEAD * OCTET);
+                for (place, &id) in ahead.enumerate() {
+                    self.corners[place / OCTET].set(place % OCTET, tiling.mesh, id);
+                }
+            }
+            let corners = &self.corners[index % AHEAD];
             let lanes = (1 << octet.len()) - 1;
             let farthest = match COUNTING {
                 true => f32::NEG_INFINITY,
@@ -107,7 +122,7 @@ impl Tile {
                 simd,
                 &tiling.frame,
                 &place,
-                &self.corners,
+                corners,
                 lanes,
                 farthest,
             );
@@ -131,12 +146,5 @@ impl Tile {
                 doubt,
             );
         }
-    }
-
-    /// The number of the triangle that is visible at a lane, and whether another has the same depth
-    /// there.
-    pub(super) fn winner(&self, block: usize, lane: usize) -> Option<(u32, bool)> {
-        let winner = self.blocks.winner[block].0[lane];
-        (winner != NOTHING).then_some((winner & !SAME_DEPTH, winner & SAME_DEPTH != 0))
     }
 }

@@ -22,7 +22,7 @@ use super::blocks::BlockGrid;
 use super::frame::Frame;
 use super::octet::{Corners, Images, Lanes, Plane, Triple};
 use super::placement::eye_plane;
-use super::screen_box::ScreenBoxes;
+use super::screen_box::{Met, ScreenBoxes};
 use super::tile_lists::Grid;
 use crate::mutant::{self, Mutant};
 use crate::pixel::{Pixel, Window};
@@ -43,9 +43,15 @@ const LEAST_ERROR: f64 = 1e-36;
 /// more than the roundings of w (2^-39 of it, `frame::FRONT`) and of the product.
 const HIDDEN: f64 = 1.0 + UNIT;
 
-/// A value that f64 knows to one part in 2^30 rounds to f32 as it should, but for one case in 2^5,
-/// where it may go to the neighbour.
-const KNOWN: f64 = (1 << 30) as f64;
+/// With V and N known to one part in 2^26 each, their quotient is off by at most half an ulp of f32,
+/// and rounds to the f32 next to its true value or to that one's neighbour.
+const KNOWN: f64 = (1 << 26) as f64;
+
+/// Whether a triangle whose certain w are at least `least_w`, or have no certain bound where that is 0,
+/// is hidden by what is drawn, for the least bound of the drawn 1/w.
+pub(super) fn is_hidden(least_w: f32, farthest: f32) -> bool {
+    least_w > 0.0 && farthest > 0.0 && f64::from(least_w) * f64::from(farthest) > HIDDEN
+}
 
 /// Where a tile lies and how far it reaches.
 pub(super) struct TileFrame<S: Simd> {
@@ -136,7 +142,8 @@ impl TileRows {
             let hidden = (least_w * f64::from(farthest)).simd_gt(HIDDEN);
             lanes &= !(hidden.to_bitmask() & front);
         }
-        lanes &= !tile.boxes.blocks(simd, &images, front, &mut self.from, &mut self.to);
+        let met = tile.boxes.blocks(simd, &images, front, &mut self.from, &mut self.to);
+        lanes &= !met.none;
         if lanes == 0 {
             return 0;
         }
@@ -199,6 +206,9 @@ impl TileRows {
         }
         let outside = masks[0] | masks[0] >> 8 | masks[1] | masks[1] >> 8;
         lanes &= !outside;
+        if lanes & met.few != 0 {
+            lanes &= !(met.few & between_samples(simd, &met, rows_a, rows_b, rows_c, -bound));
+        }
         if lanes == 0 {
             return 0;
         }
@@ -229,6 +239,34 @@ impl TileRows {
             volume_sign: if (volume < 0.0) == (frame.orientation < 0.0) { 1 } else { -1 },
         }
     }
+}
+
+/// Triangles that cover none of the 2 × 2 samples from the first that they can meet: at each of
+/// them some edge is below `least`. Values round as drawn ones do (at most 6 times).
+#[inline(always)]
+fn between_samples<S: Simd>(
+    simd: S,
+    met: &Met<S>,
+    a: [f32x16<S>; 2],
+    b: [f32x16<S>; 2],
+    c: [f32x16<S>; 2],
+    least: f32,
+) -> u64 {
+    let least = f32x16::splat(simd, least);
+    let (first, second) =
+        (a[0] * met.x + (b[0] * met.y + c[0]), a[1] * met.x + (b[1] * met.y + c[1]));
+    let covered = covered_lanes(least, first, second)
+        | covered_lanes(least, first + a[0], second + a[1])
+        | covered_lanes(least, first + b[0], second + b[1])
+        | covered_lanes(least, first + a[0] + b[0], second + a[1] + b[1]);
+    !covered & 0xff
+}
+
+/// Triangles no edge of which is below `least`. The upper half of `second` is 1/w.
+#[inline(always)]
+fn covered_lanes<S: Simd>(least: f32x16<S>, first: f32x16<S>, second: f32x16<S>) -> u64 {
+    let (first, second) = (first.simd_lt(least).to_bitmask(), second.simd_lt(least).to_bitmask());
+    !(first | first >> 8 | second & 0xff)
 }
 
 /// C of a row at the tile's first sample.

@@ -7,6 +7,7 @@ use super::kernel_effects::KernelEffects;
 use super::lanes::{Cones, Lanes};
 use super::lights::{self, Origin, PreparedLight, is_black};
 use super::method::Method;
+use super::precision::Precision;
 use super::watch::Watch;
 use crate::pixel::Pixel;
 use crate::scene::Scene;
@@ -90,9 +91,9 @@ impl<'a> Frame<'a> {
     }
 
     /// The same frame with several pixels shaded at once where that is possible.
-    pub(super) fn in_lanes(self, level: SimdLevel) -> Self {
+    pub(super) fn in_lanes(self, level: SimdLevel, precision: Precision) -> Self {
         let level = level.dispatched();
-        let lanes = Lanes::of(self.scene, self.rules, &self.lights, level);
+        let lanes = Lanes::of(self.scene, self.rules, &self.lights, level, precision);
         Self { level, lanes, ..self }
     }
 

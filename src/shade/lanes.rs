@@ -14,6 +14,7 @@ mod place;
 mod power;
 mod products;
 mod run;
+pub(super) mod single;
 mod vector;
 
 pub(super) use cones::Cones;
@@ -22,6 +23,7 @@ pub(super) use run::Run;
 use super::effects::Effects;
 use super::frame::{Frame, RowAsker, is_hidden};
 use super::lights::{Origin, PreparedLight};
+use super::precision::Precision;
 use super::vector::largest_component;
 use crate::color::LinearRgb;
 use crate::pixel::Pixel;
@@ -31,13 +33,14 @@ use crate::visibility::Visible;
 use fearless_simd::prelude::*;
 use fearless_simd::{Level, dispatch};
 use light::{Point, add_light};
+use single::SingleFrame;
 use vector::{Mask, Reals};
 
 /// Pixels at once.
 const LANES: usize = 8;
 
 /// What lanes ask of a frame, found once.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(super) struct Lanes {
     level: Level,
     /// Whether any light is at a point.
@@ -46,6 +49,8 @@ pub(super) struct Lanes {
     specular: bool,
     /// max |e_k| of the eye.
     largest_eye: f64,
+    /// The lights in f32, where f32 is allowed and takes the scene's numbers.
+    single: Option<SingleFrame>,
 }
 
 impl Lanes {
@@ -55,6 +60,7 @@ impl Lanes {
         rules: &Rules,
         lights: &[PreparedLight],
         level: Level,
+        precision: Precision,
     ) -> Option<Self> {
         let is_plain = rules.renormalize
             && !rules.screen_interpolation
@@ -67,6 +73,10 @@ impl Lanes {
             positional: lights.iter().any(|light| matches!(light.origin, Origin::Position(_))),
             specular: lights.iter().any(|light| light.specular != [0.0; 3]),
             largest_eye: largest_component(scene.camera.eye()),
+            single: match precision {
+                Precision::Double => None,
+                Precision::Single => SingleFrame::of(scene, lights),
+            },
         })
     }
 }
@@ -104,6 +114,14 @@ fn shade_gathered<S: Simd>(
     asker: &RowAsker<'_>,
     radiance: &mut [LinearRgb],
 ) -> u32 {
+    let mut done = 0;
+    if let Some(single) = lanes.single.as_ref().filter(|_| frame.directed) {
+        done = single::shade(simd, frame, single, stretch, run, asker, radiance);
+        run.live &= !done;
+        if run.live == 0 {
+            return done;
+        }
+    }
     if frame.directed {
         place::place(simd, frame, lanes, stretch.first, run);
     }
@@ -111,7 +129,6 @@ fn shade_gathered<S: Simd>(
         let bounds = run.bounds(simd);
         frame.cones.mark_with(simd, &bounds, &mut run.reaches);
     }
-    let mut done = 0;
     for start in (0..stretch.visible.len()).step_by(LANES) {
         let live = run.live >> start & 0xff;
         if live == 0 {

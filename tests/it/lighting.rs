@@ -16,6 +16,7 @@ mod pipelines;
 mod reflection;
 mod shaders;
 mod shading;
+mod single;
 mod stage;
 mod surfaces;
 mod switches;

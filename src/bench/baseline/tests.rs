@@ -17,6 +17,7 @@ fn row(name: &str, time: Option<[f64; 2]>) -> Row {
         work: Work::Closest,
         amount: Work::Closest.of(12),
         program: None,
+        is_exact: true,
         wrong_pixels: Some(usize::from(time.is_none())),
         times: time.map(|[median, deviation]| Statistics {
             n: 9,

@@ -14,6 +14,9 @@ use ::bvh::bvh::Bvh;
 use ::bvh::ray::Ray;
 use obvhs::rt_triangle::RtTriangle;
 
+/// The name of its variant.
+pub(super) const NAME: &str = "bvh";
+
 /// A tree and its triangles.
 pub(super) struct Tree {
     tree: Bvh<f32, 3>,
@@ -62,7 +65,7 @@ impl Tree {
         Self { tree, triangles }
     }
 
-    pub(super) fn variants<'a>(&'a self, rays: &'a Rays) -> [Variant<'a>; 1] {
+    pub(super) fn variant<'a>(&'a self, rays: &'a Rays) -> Variant<'a> {
         let hits = rays.hits();
         let closest = move || {
             rays.cast_each(&hits, |direction| {
@@ -79,6 +82,6 @@ impl Tree {
             });
             Answer::Hits(hits.clone())
         };
-        [Variant::new("bvh", Work::Closest, rays.len(), closest).of("bvh 0.13")]
+        Variant::new(NAME, Work::Closest, rays.len(), closest).of("bvh 0.13")
     }
 }

@@ -16,7 +16,7 @@ use std::ffi::OsStr;
 use std::hint::black_box;
 
 /// Under which names a system may know the library, the newest first.
-const NAMES: [&str; 6] = [
+const LIBRARIES: [&str; 6] = [
     "libembree4.so.4",
     "libembree4.so",
     "libembree4.dylib",
@@ -27,6 +27,16 @@ const NAMES: [&str; 6] = [
 
 /// Columns of the block of pixels that a packet of either width covers.
 const BLOCK_WIDTH: u32 = 4;
+
+/// The names of its variants of rays.
+pub(super) const NAMES: [&str; 6] = [
+    "Embree single",
+    "Embree 8 coherent",
+    "Embree 16 coherent",
+    "Embree single, robust",
+    "Embree 8 coherent, robust",
+    "Embree 16 coherent, robust",
+];
 
 /// One mesh, built with and without the robust flag.
 pub(super) struct Scenes<'a> {
@@ -39,15 +49,18 @@ pub(super) struct Scenes<'a> {
 
 impl<'a> Scenes<'a> {
     /// Loads the library and builds both trees on the threads of the pool this is called from.
-    pub(super) fn new(mesh: &'a TriangleMesh, options: &PeerOptions) -> Result<Self, PeerError> {
+    pub(super) fn new(
+        mesh: &'a TriangleMesh,
+        options: &PeerOptions<'_>,
+    ) -> Result<Self, PeerError> {
         let named = options.embree.as_ref().map(|path| path.display().to_string());
         let failed = |reason| PeerError::Embree {
-            path: named.clone().unwrap_or_else(|| NAMES[0].to_owned()),
+            path: named.clone().unwrap_or_else(|| LIBRARIES[0].to_owned()),
             reason,
         };
         let embree = match &options.embree {
             Some(path) => Embree::load(path.as_os_str()).map_err(failed)?,
-            None => NAMES
+            None => LIBRARIES
                 .iter()
                 .find_map(|name| Embree::load(OsStr::new(name)).ok())
                 .ok_or_else(|| failed("none of its libraries is installed".to_owned()))?,
@@ -82,27 +95,22 @@ impl<'a> Scenes<'a> {
             Answer::Unchecked
         };
         variants.push(Variant::new("build Embree", Work::Build, self.mesh.len(), build));
-        for (tree, suffix) in [(&self.fast, ""), (&self.robust, ", robust")] {
+        for (tree, names) in [(&self.fast, &NAMES[..3]), (&self.robust, &NAMES[3..])] {
             let hits = rays.hits();
+            variants.push(Variant::new(names[0], Work::Closest, rays.len(), move || {
+                cast_singles(tree, rays, &hits);
+                Answer::Hits(hits.clone())
+            }));
+            let hits = rays.hits();
+            let has_16 = tree.has_16_lanes();
             variants.push(Variant::new(
-                format!("Embree single{suffix}"),
+                names[if has_16 { 2 } else { 1 }],
                 Work::Closest,
                 rays.len(),
                 move || {
-                    cast_singles(tree, rays, &hits);
-                    Answer::Hits(hits.clone())
-                },
-            ));
-            let hits = rays.hits();
-            let lanes = if tree.has_16_lanes() { 16 } else { 8 };
-            variants.push(Variant::new(
-                format!("Embree {lanes} coherent{suffix}"),
-                Work::Closest,
-                rays.len(),
-                move || {
-                    match lanes {
-                        16 => cast_packets::<16>(tree, rays, &hits),
-                        _ => cast_packets::<8>(tree, rays, &hits),
+                    match has_16 {
+                        true => cast_packets::<16>(tree, rays, &hits),
+                        false => cast_packets::<8>(tree, rays, &hits),
                     }
                     Answer::Hits(hits.clone())
                 },

@@ -17,6 +17,9 @@ use obvhs::rt_triangle::RtTriangle;
 use obvhs::triangle::Triangle;
 use std::time::Duration;
 
+/// The names of its variants.
+pub(super) const NAMES: [&str; 2] = ["obvhs BVH2", "obvhs CWBVH"];
+
 /// Both kinds of tree, with the preset that is our standard.
 pub(super) struct Trees {
     binary: (Bvh2, Vec<RtTriangle>),
@@ -75,8 +78,8 @@ impl Trees {
             Answer::Hits(hits.clone())
         };
         [
-            Variant::new("obvhs BVH2", Work::Closest, rays.len(), binary).of("obvhs 0.4"),
-            Variant::new("obvhs CWBVH", Work::Closest, rays.len(), wide).of("obvhs 0.4"),
+            Variant::new(NAMES[0], Work::Closest, rays.len(), binary).of("obvhs 0.4"),
+            Variant::new(NAMES[1], Work::Closest, rays.len(), wide).of("obvhs 0.4"),
         ]
     }
 }

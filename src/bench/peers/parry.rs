@@ -10,6 +10,9 @@ use parry3d::math::Vector;
 use parry3d::partitioning::{Bvh, BvhBuildStrategy};
 use parry3d::query::Ray;
 
+/// The name of its variant.
+pub(super) const NAME: &str = "parry3d";
+
 /// A tree and its triangles by id.
 pub(super) struct Tree {
     tree: Bvh,
@@ -40,6 +43,6 @@ impl Tree {
             });
             Answer::Hits(hits.clone())
         };
-        Variant::new("parry3d", Work::Closest, rays.len(), closest).of("parry3d 0.31")
+        Variant::new(NAME, Work::Closest, rays.len(), closest).of("parry3d 0.31")
     }
 }

@@ -1,9 +1,9 @@
 //! A report as one JSON document with stable keys, which a later one can be compared with.
 
 use crate::bench::baseline::Compared;
-use crate::bench::rivalry::{Rivalry, rivalries};
+use crate::bench::kernels::TreeFigures;
+use crate::bench::rivalry::{Rivalry, price_of_proof, rivalries};
 use crate::bench::rounds::Row;
-use crate::bench::workload::TreeFigures;
 use crate::bench::{Measured, Report};
 use serde_json::{Value, json};
 
@@ -46,6 +46,7 @@ fn scene(measured: &Measured) -> Value {
         "trees": measured.trees.iter().map(tree).collect::<Vec<_>>(),
         "rows": measured.rows.iter().map(|r| row(measured, r)).collect::<Vec<_>>(),
         "rivalries": rivalries(&measured.rows).iter().map(rivalry).collect::<Vec<_>>(),
+        "price_of_proof": price_of_proof(&measured.rows),
         "left_out": measured.left_out,
     })
 }
@@ -68,6 +69,7 @@ fn row(measured: &Measured, row: &Row) -> Value {
         "name": row.name,
         "work": row.work.name(),
         "program": row.program,
+        "exact": row.is_exact,
         "wrong_pixels": row.wrong_pixels,
         "n": times.map_or(0, |times| times.n),
         "median_ms": times.map(|times| 1e3 * times.median),

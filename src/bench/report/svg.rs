@@ -1,7 +1,8 @@
 //! A report as bars: median times from 0 on, each kind of work on a scale of its own.
 //!
 //! The thin line over a bar's end spans the median absolute deviation on both sides. A variant
-//! without a time has no bar but says why. A bar in red is another program's with wrong answers.
+//! without a time has no bar but says why. A bar in red is of a variant that
+//! promises nothing and has wrong answers.
 
 use crate::bench::rounds::Row;
 use crate::bench::workload::Work;
@@ -92,10 +93,10 @@ fn bar(drawing: &mut Drawing, row: &Row, longest: f64, y: f64) {
         return;
     };
     let x = |time: f64| BAR_START + BAR_LENGTH * (time / longest).clamp(0.0, 1.25);
-    let ink = match (row.program.is_some(), wrong > 0) {
-        (false, _) => OURS,
-        (true, false) => THEIRS,
-        (true, true) => WRONG,
+    let ink = match row.program {
+        _ if wrong > 0 => WRONG,
+        None => OURS,
+        Some(_) => THEIRS,
     };
     let end = x(times.median).max(BAR_START + 1.0);
     let (top, bottom) = (y - 0.5 * BAR_HEIGHT, y + 0.5 * BAR_HEIGHT);

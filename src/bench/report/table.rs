@@ -1,7 +1,8 @@
 //! A report as tables for a terminal.
 
 use crate::bench::baseline::Compared;
-use crate::bench::rivalry::rivalries;
+use crate::bench::kernels::{PROVEN, UNPROVEN};
+use crate::bench::rivalry::{price_of_proof, rivalries};
 use crate::bench::rounds::Row;
 use crate::bench::{Measured, Report};
 use crate::statistics::NOISY_SPREAD;
@@ -60,6 +61,9 @@ fn scene(text: &mut String, measured: &Measured) {
             rivalry.ours, rivalry.ratio, rivalry.theirs, rivalry.program, rivalry.ratio_of_least,
         );
     }
+    if let Some(price) = price_of_proof(&measured.rows) {
+        let _ = writeln!(text, "proof: {PROVEN} takes {price:.2} of the time of {UNPROVEN}");
+    }
     for left_out in &measured.left_out {
         let _ = writeln!(text, "{left_out}");
     }
@@ -93,6 +97,9 @@ fn scene(text: &mut String, measured: &Measured) {
     for row in &measured.rows {
         let Some(levels) = row.levels else { continue };
         let all = (levels.single + levels.double + levels.exact) as f64;
+        if all == 0.0 {
+            continue;
+        }
         let _ = writeln!(
             text,
             "{:<27} {:>12} {:>10} {:>12} {:>22.2}",

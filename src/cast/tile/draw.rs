@@ -53,9 +53,9 @@ impl Scratch {
     };
 }
 
-/// Draws the batch.
+/// Draws the batch. Without `CERTAIN` what f32 says is believed, and the bounds of z are one number.
 #[inline(always)]
-pub(super) fn draw<S: Simd>(
+pub(super) fn draw<S: Simd, const CERTAIN: bool>(
     simd: S,
     frame: &Frame<'_>,
     window: Window,
@@ -68,7 +68,8 @@ pub(super) fn draw<S: Simd>(
     if pairs == 0 {
         return;
     }
-    let dirty = draw_pairs(simd, frame, window, batch, scratch, pairs, samples, memory);
+    let dirty =
+        draw_pairs::<S, CERTAIN>(simd, frame, window, batch, scratch, pairs, samples, memory);
     memory.levels.single += (pairs * WIDTH) as u64;
     let mut left = dirty;
     while left != 0 {
@@ -77,7 +78,7 @@ pub(super) fn draw<S: Simd>(
         samples.block_z[block] = f32x16::load_array_ref(simd, &samples.z_lo[block]).reduce_min();
     }
     if dirty != 0 {
-        samples.narrow();
+        samples.narrow(simd);
     }
 }
 
@@ -135,7 +136,7 @@ fn list_pairs<S: Simd>(simd: S, batch: &Batch, scratch: &mut Scratch, samples: &
 /// Draws the listed pairs; a bit for every block that has changed.
 #[inline(always)]
 #[allow(clippy::too_many_arguments, reason = "one loop over everything that a tile has")]
-fn draw_pairs<S: Simd>(
+fn draw_pairs<S: Simd, const CERTAIN: bool>(
     simd: S,
     frame: &Frame<'_>,
     window: Window,
@@ -159,6 +160,16 @@ fn draw_pairs<S: Simd>(
         }
         let least = values[0].min(values[1]).min(values[2]);
         let z = values[3];
+        if !CERTAIN {
+            let nearest = f32x16::load_array_ref(simd, &samples.z_lo[block]);
+            let seen = least.simd_ge(f32x16::splat(simd, 0.0)) & z.simd_gt(nearest);
+            seen.select(z, nearest).store_array(&mut samples.z_lo[block]);
+            let ids = u32x16::load_array_ref(simd, &samples.ids[block]);
+            seen.select(u32x16::splat(simd, batch.ids[lane]), ids)
+                .store_array(&mut samples.ids[block]);
+            dirty |= u64::from(seen.to_bitmask() != 0) << block;
+            continue;
+        }
         let error = f32x16::splat(simd, batch.depth_error[lane]);
         let (lo, hi) = (z - error, z + error);
         let z_lo = f32x16::load_array_ref(simd, &samples.z_lo[block]);
@@ -176,7 +187,8 @@ fn draw_pairs<S: Simd>(
         sure.select(u32x16::splat(simd, batch.ids[lane]), ids).store_array(&mut samples.ids[block]);
         let sure_bits = sure.to_bitmask() as u16;
         let may_bits = may.to_bitmask() as u16;
-        if !mutant::is(Mutant::StaleTies) {
+        // Ties are rare, and so is looking at them.
+        if samples.tied >> block & 1 != 0 && !mutant::is(Mutant::StaleTies) {
             samples.ties[block] &= !sure_bits;
         }
         dirty |= u64::from(may_bits != 0) << block;

@@ -92,9 +92,10 @@ impl Batch {
 type Vector<S> = [f64x8<S>; 3];
 
 /// Sets up the triangles `first..` of `live`, at most 8, for the tile. Those that certainly cover no
-/// sample of it in front of `least_z` are left out.
+/// sample of it in front of `least_z` are left out. Without `CERTAIN` the rows are neither scaled nor
+/// bounded: what a rasterizer in f32 would draw.
 #[inline(always)]
-pub(super) fn set_up<S: Simd>(
+pub(super) fn set_up<S: Simd, const CERTAIN: bool>(
     simd: S,
     frame: &Frame<'_>,
     lattice: &Lattice,
@@ -104,7 +105,7 @@ pub(super) fn set_up<S: Simd>(
     batch: &mut Batch,
 ) {
     let zero = f64x8::splat(simd, 0.0);
-    let minus_one = f64x8::splat(simd, -1.0);
+    let margin = if CERTAIN { f64x8::splat(simd, -1.0) } else { zero };
     let block_steps = f64x8::splat(simd, BLOCK_STEPS);
     // Take the vertices to f64 and to the eye.
     let mut v = [[zero; 3]; 3];
@@ -125,13 +126,16 @@ pub(super) fn set_up<S: Simd>(
     let n = cross(&edges[0], &edges[1]);
     let plane = dot(&a[0], &n);
     let relative_error = s * edge_square;
-    let open = plane.abs().simd_le(relative_error * f64x8::splat(simd, 8.0 * PLANE));
+    let doubt = if CERTAIN { relative_error * f64x8::splat(simd, 8.0 * PLANE) } else { zero };
+    let open = plane.abs().simd_le(doubt);
     let there = (1_u32 << (live.count - first).min(GROUP)) - 1;
     batch.ids.copy_from_slice(&live.ids[first..first + GROUP]);
     let mut kept = there;
     let mut sign = plane;
     let doubtful = mask_bits(open) & there;
-    if doubtful != 0 {
+    if !CERTAIN {
+        kept &= !doubtful;
+    } else if doubtful != 0 {
         let (signs, invisible) = open_signs(frame, live, first, doubtful);
         sign = open.select(f64x8::load_array(simd, signs), plane);
         kept &= !invisible;
@@ -149,20 +153,31 @@ pub(super) fn set_up<S: Simd>(
     for i in 0..3 {
         let c = cross(&a[(i + 1) % 3], &a[(i + 2) % 3]);
         let row = [dot(&c, &dx), dot(&c, &dy), dot(&c, &d)];
-        let m = (size(&row, steps) * f64x8::splat(simd, ROW_SIZE)).max(least_size);
-        let scale = signed_one / m;
+        let scale = if CERTAIN {
+            signed_one / (size(&row, steps) * f64x8::splat(simd, ROW_SIZE)).max(least_size)
+        } else {
+            signed_one
+        };
         let row = scaled(&row, scale);
         most = most.min(upper(&row, right, bottom, zero));
         let rise = (row[0].max(zero) + row[1].max(zero)) * block_steps;
         store_row(&mut batch.rows[i], &row);
-        store_pair(&mut batch.reach[i], minus_one - rise);
+        store_pair(&mut batch.reach[i], margin - rise);
     }
-    let mut outside = mask_bits(most.simd_lt(minus_one));
+    let mut outside = mask_bits(most.simd_lt(margin));
     // Make the row of z with its error.
     let normal = [dot(&n, &dx), dot(&n, &dy), dot(&n, &d)];
     let per_plane = f64x8::splat(simd, frame.sigma) / plane;
     let magnitude = per_plane.abs();
     let row = scaled(&normal, per_plane);
+    let least_z = f64x8::splat(simd, f64::from(least_z));
+    if !CERTAIN {
+        outside |= mask_bits(upper(&row, right, bottom, zero).simd_lt(least_z));
+        store_row(&mut batch.rows[3], &row);
+        store_pair(&mut batch.reach[3], (row[0].max(zero) + row[1].max(zero)) * block_steps);
+        batch.live = kept & !outside;
+        return;
+    }
     let size = size(&row, steps);
     let relative = f64x8::splat(simd, 60.0 * U / frame.sigma) * relative_error * magnitude;
     let error = size * (f64x8::splat(simd, DEPTH) + relative)
@@ -172,7 +187,7 @@ pub(super) fn set_up<S: Simd>(
     let row = [known.select(row[0], zero), known.select(row[1], zero), known.select(row[2], zero)];
     let error = known.select(error, f64x8::splat(simd, f64::INFINITY));
     let nearest = upper(&row, right, bottom, zero) + error;
-    outside |= mask_bits(nearest.simd_lt(f64x8::splat(simd, f64::from(least_z))));
+    outside |= mask_bits(nearest.simd_lt(least_z));
     let rise = (row[0].max(zero) + row[1].max(zero)) * block_steps + error;
     store_row(&mut batch.rows[3], &row);
     store_pair(&mut batch.reach[3], rise);

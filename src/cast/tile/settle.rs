@@ -6,7 +6,7 @@
 use super::frame::Frame;
 use super::state::{self, NOTHING, Samples};
 use crate::accel::LeafTriangle;
-use crate::cast::candidate::Candidate;
+use crate::cast::candidate::{self, Candidate};
 use crate::cast::coverage;
 use crate::cast::memo::SamePlane;
 use crate::cast::ray::Ray;
@@ -43,29 +43,72 @@ pub(super) fn settle(
 ) {
     let Open { triangle, block, lanes, covered } = open;
     let mut left = lanes & samples.inside[block];
+    samples.tied |= 1 << block;
     while left != 0 {
         let lane = left.trailing_zeros() as usize;
-        left &= left - 1;
-        let bit = 1 << lane;
         let nearest = samples.ids[block][lane];
-        // Certainly covered, and known to lie in the plane of the nearest: by the ids.
-        if covered & bit != 0
+        // Certainly covered, and known to lie in the plane of the nearest: by the ids, wherever
+        // that is the nearest.
+        if covered >> lane & 1 != 0
             && nearest != NOTHING
-            && memory.same_plane.knows(TriangleId::new(triangle), TriangleId::new(nearest))
+            && memory.same_plane.has(TriangleId::new(triangle), TriangleId::new(nearest))
         {
-            samples.ids[block][lane] = nearest.min(triangle);
-            samples.ties[block] |= bit;
-            samples.double[block] |= bit;
+            let alike = left & covered & samples.lanes_of(block, nearest);
+            if triangle < nearest {
+                for (lane, id) in samples.ids[block].iter_mut().enumerate() {
+                    *id = if alike >> lane & 1 != 0 { triangle } else { *id };
+                }
+            }
+            samples.ties[block] |= alike;
+            samples.double[block] |= alike;
+            memory.levels.double += u64::from(alike.count_ones());
+            left &= !alike;
+            continue;
+        }
+        left &= left - 1;
+        let place = [block, lane];
+        if covered >> lane & 1 != 0 && order_in_double(frame, window, samples, place, triangle) {
+            samples.double[block] |= 1 << lane;
             memory.levels.double += 1;
             continue;
         }
-        let level = decide(frame, window, samples, memory, [block, lane], triangle);
-        match level {
+        match decide(frame, window, samples, memory, place, triangle) {
             Level::Single => {}
-            Level::Double => samples.double[block] |= bit,
-            Level::Exact => samples.exact[block] |= bit,
+            Level::Double => samples.double[block] |= 1 << lane,
+            Level::Exact => samples.exact[block] |= 1 << lane,
         }
     }
+}
+
+/// Orders a triangle that certainly covers a sample and its nearest by the bounds of t that f64 has;
+/// whether they are enough.
+fn order_in_double(
+    frame: &Frame<'_>,
+    window: Window,
+    samples: &mut Samples,
+    [block, lane]: [usize; 2],
+    triangle: u32,
+) -> bool {
+    let nearest = samples.ids[block][lane];
+    if nearest == NOTHING {
+        return false;
+    }
+    let ray = frame.view.ray(state::pixel(window, block, lane));
+    let [own, others] = [triangle, nearest].map(|id| {
+        let vertices = frame.mesh.triangle(TriangleId::new(id)).map(|v| v.map(f64::from));
+        candidate::plane_interval(&ray, &vertices)
+    });
+    let (Some(own), Some(others)) = (own, others) else { return false };
+    match candidate::separated(own, others) {
+        None => return false,
+        Some(false) => {}
+        Some(true) => {
+            samples.ids[block][lane] = triangle;
+            [samples.z_lo[block][lane], samples.z_hi[block][lane]] = z_bounds(frame, own);
+            samples.ties[block] &= !(1 << lane);
+        }
+    }
+    true
 }
 
 /// Computes t where the bounds of z are too far apart to give it.
@@ -124,7 +167,7 @@ fn decide(
             }
         }
     };
-    let [lo, hi] = z_bounds(frame, &winner);
+    let [lo, hi] = z_bounds(frame, [winner.nearest_t(), winner.reach()]);
     samples.ids[block][lane] = winner.triangle.id.get();
     samples.z_lo[block][lane] = lo;
     samples.z_hi[block][lane] = hi;
@@ -148,7 +191,7 @@ fn covering(
 
 /// Bounds of σ/t in f32: each quotient rounds once in f64 and once to f32, and a step of f32 covers
 /// both. A t of 0, the crudest lower bound, gives +∞.
-fn z_bounds(frame: &Frame<'_>, candidate: &Candidate) -> [f32; 2] {
+fn z_bounds(frame: &Frame<'_>, [t_lo, t_hi]: [f64; 2]) -> [f32; 2] {
     let z = |t: f64| (frame.sigma / t) as f32;
-    [z(candidate.reach()).next_down(), z(candidate.nearest_t()).next_up()]
+    [z(t_hi).next_down(), z(t_lo).next_up()]
 }

@@ -8,6 +8,7 @@ use super::frame::SIDE;
 use crate::accel::WIDTH;
 use crate::pixel::{Pixel, Window};
 use crate::visibility::LevelCounts;
+use fearless_simd::{Simd, SimdBase, f32x16};
 
 /// Side of a block, in pixels.
 pub(in crate::cast) const BLOCK: usize = 4;
@@ -43,6 +44,8 @@ pub(in crate::cast) struct Samples {
     pub(super) inside: [u16; BLOCKS],
     /// Samples on an edge of their nearest triangle, or at which another lies at the same depth.
     pub(super) ties: [u16; BLOCKS],
+    /// A bit for every block that may have ties.
+    pub(super) tied: u64,
     /// Samples at which some decision took f64, and at which one took more.
     pub(super) double: [u16; BLOCKS],
     pub(super) exact: [u16; BLOCKS],
@@ -63,12 +66,19 @@ impl Samples {
         block_z: [f32::NEG_INFINITY; BLOCKS],
         inside: [u16::MAX; BLOCKS],
         ties: [0; BLOCKS],
+        tied: 0,
         double: [0; BLOCKS],
         exact: [0; BLOCKS],
         least_z: f32::NEG_INFINITY,
         reach: f32::INFINITY,
         drawn: false,
     };
+
+    /// The samples of a block at which this triangle is the nearest.
+    pub(super) fn lanes_of(&self, block: usize, id: u32) -> u16 {
+        let same = |lane: usize| u16::from(self.ids[block][lane] == id) << lane;
+        (0..WIDTH).fold(0, |lanes, lane| lanes | same(lane))
+    }
 
     /// Whether the nearest triangle has the sample on an edge, or shares its depth there.
     #[inline(always)]
@@ -111,6 +121,7 @@ impl Samples {
         self.block_z.fill(f32::NEG_INFINITY);
         self.inside.fill(u16::MAX);
         self.ties.fill(0);
+        self.tied = 0;
         self.double.fill(0);
         self.exact.fill(0);
         if window.len() < SIDE * SIDE {
@@ -137,11 +148,13 @@ impl Samples {
 
     /// Finds the least z and the reach anew.
     #[inline(always)]
-    pub(super) fn narrow(&mut self) {
-        let mut least = self.block_z[0];
-        for z in self.block_z {
-            least = if z < least { z } else { least };
+    pub(super) fn narrow<S: Simd>(&mut self, simd: S) {
+        let mut least = f32x16::from_slice(simd, &self.block_z[..WIDTH]);
+        for q in 1..BLOCKS / WIDTH {
+            let others = f32x16::from_slice(simd, &self.block_z[q * WIDTH..(q + 1) * WIDTH]);
+            least = least.min(others);
         }
+        let least = least.reduce_min();
         self.least_z = least;
         self.reach = if least > LEAST_Z { REACH_PADDING / least } else { f32::INFINITY };
     }

@@ -1,5 +1,6 @@
 //! `truecast bench` as typed.
 
+use crate::cli::obj_scene::{FIELD_OF_VIEW_DEG, View};
 use clap::{Args, ValueEnum};
 use std::path::PathBuf;
 use truecast::accel::BuildPreset;
@@ -14,13 +15,25 @@ use truecast::simd::SimdLevel;
 pixel and against exact arithmetic at 200; a variant with a wrong answer gets no time but its number of \
 wrong pixels. A program built with the features `peers` or `embree` times other programs' ray casters \
 beside its own. Exit status: 0 ok; 1 a wrong answer, or slower than the baseline beyond noise; 2 usage; \
-3 bad scene, nothing visible, or a baseline of another scene, size or number of threads; 4 reading or \
+3 bad scene, nothing visible, nothing to measure, or a baseline of another scene, size or number of threads; 4 reading or \
 writing failed; 130 interrupted."
 )]
 pub(in crate::cli) struct BenchArguments {
-    /// Scene files (TOML); without any the built-in default scene, a teapot under spotlights
-    #[arg(value_name = "SCENE")]
+    /// Scene files (TOML), or mesh files (.obj), which are seen as a whole at 1920x1080; without any the
+    /// built-in default scene, a teapot under spotlights
+    #[arg(value_name = "SCENE|MESH.obj")]
     pub(in crate::cli) scenes: Vec<PathBuf>,
+    /// Where mesh files are seen from
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse_point, allow_hyphen_values = true,
+          requires = "target")]
+    pub(in crate::cli) eye: Option<[f64; 3]>,
+    /// The point of mesh files in the middle of the frame
+    #[arg(long, value_name = "X,Y,Z", value_parser = parse_point, allow_hyphen_values = true,
+          requires = "eye")]
+    pub(in crate::cli) target: Option<[f64; 3]>,
+    /// Full vertical angle of view of mesh files, in degrees
+    #[arg(long, value_name = "DEG", default_value_t = FIELD_OF_VIEW_DEG)]
+    pub(in crate::cli) fov: f64,
     /// Also write the report to this file, .json, .csv or .svg by extension; may be repeated
     #[arg(short, long = "output", value_name = "FILE")]
     pub(in crate::cli) output: Vec<PathBuf>,
@@ -43,6 +56,10 @@ pub(in crate::cli) struct BenchArguments {
     /// Kinds of work to measure, separated by commas [default: all]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_enum)]
     pub(in crate::cli) work: Vec<WorkWord>,
+    /// Only variants whose name contains one of these texts, separated by semicolons: `cast
+    /// medium;embree` [default: all]
+    #[arg(long, value_name = "TEXT;...", value_delimiter = ';')]
+    pub(in crate::cli) only: Vec<String>,
     /// Presets by which trees are built and cast at, separated by commas [default: all]
     #[arg(long, value_name = "LIST", value_delimiter = ',', value_enum)]
     pub(in crate::cli) preset: Vec<PresetWord>,
@@ -63,10 +80,17 @@ pub(in crate::cli) struct BenchArguments {
 }
 
 impl BenchArguments {
+    /// How mesh files are seen.
+    pub(in crate::cli) fn view(&self) -> View {
+        let eye_and_target = self.eye.zip(self.target).map(|(eye, target)| [eye, target]);
+        View { eye_and_target, fov_y_deg: self.fov }
+    }
+
     /// What they ask of each scene.
     pub(in crate::cli) fn options(&self) -> BenchOptions {
         let mut options = BenchOptions {
             rounds: self.rounds,
+            only: self.only.clone(),
             holds_simd: !self.simd.is_empty(),
             ..BenchOptions::default()
         };
@@ -142,6 +166,15 @@ impl PresetWord {
             Self::VerySlow => BuildPreset::VerySlow,
         }
     }
+}
+
+fn parse_point(text: &str) -> Result<[f64; 3], String> {
+    let numbers: Option<Vec<f64>> = text
+        .split(',')
+        .map(|number| number.trim().parse().ok().filter(|n: &f64| n.is_finite()))
+        .collect();
+    let point = numbers.and_then(|numbers| numbers.try_into().ok());
+    point.ok_or_else(|| "expected three finite numbers, such as 3,1.5,-2".to_owned())
 }
 
 fn parse_simd(text: &str) -> Result<SimdLevel, String> {

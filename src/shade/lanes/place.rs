@@ -20,13 +20,22 @@ fn columns<S: Simd>(simd: S, first: Pixel, start: usize) -> Reals<S> {
 
 /// The directions of the pixels' rays: `surface::ray_direction`.
 #[inline(always)]
-fn ray_directions<S: Simd>(simd: S, frame: &Frame<'_>, first: Pixel, start: usize) -> Vectors<S> {
+pub(super) fn ray_directions<S: Simd>(
+    simd: S,
+    frame: &Frame<'_>,
+    first: Pixel,
+    start: usize,
+) -> Vectors<S> {
     let camera = &frame.scene.camera;
     let (d0, dx, dy) = (camera.d0(), camera.dx(), camera.dy());
     let x = columns(simd, first, start);
     let [_, y] = first.sample();
-    let along = |k: usize| x * dx[k] + Reals::splat(simd, d0[k]) + Reals::splat(simd, y * dy[k]);
-    [along(0), along(1), along(2)]
+    let [dx0, dx1, dx2] = dx;
+    [
+        x * dx0 + Reals::splat(simd, d0[0]) + Reals::splat(simd, y * dy[0]),
+        x * dx1 + Reals::splat(simd, d0[1]) + Reals::splat(simd, y * dy[1]),
+        x * dx2 + Reals::splat(simd, d0[2]) + Reals::splat(simd, y * dy[2]),
+    ]
 }
 
 /// V of eight neighbouring pixels, and where it needs more care than this; zero where no light asks
@@ -88,8 +97,12 @@ pub(super) fn place<S: Simd>(
             }
             let unit = if face.is_smooth {
                 let [a, b, c] = face.normals;
-                let mix = |k: usize| weights[0] * a[k] + weights[1] * b[k] + weights[2] * c[k];
-                let mean = [mix(0), mix(1), mix(2)];
+                let [w0, w1, w2] = weights;
+                let mean = [
+                    w0 * a[0] + w1 * b[0] + w2 * c[0],
+                    w0 * a[1] + w1 * b[1] + w2 * c[1],
+                    w0 * a[2] + w1 * b[2] + w2 * c[2],
+                ];
                 let squared = vector::squared_length(mean);
                 let cancelled = !squared.simd_ge(CANCELLED_SQUARED);
                 let lanes = segment.lanes_from(start);

@@ -1,12 +1,15 @@
 //! Coefficients times the lights' colours: found once for a run of one material, else lane by lane.
 
 use super::LANES;
+use super::single::vector::Vectors as SingleVectors;
+use super::single::{Colors as SingleColors, SingleLight, vector as single_vector};
 use super::vector::{self, Reals, Vectors};
 use crate::color::LinearRgb;
 use crate::shade::coefficients::{Coefficients, product};
 use crate::shade::frame::Frame;
 use crate::shade::lights::{PreparedLight, is_black};
 use crate::shade::reach::RUN;
+use fearless_simd::f32x16;
 use fearless_simd::prelude::*;
 
 /// Colours of one light as a surface returns them.
@@ -17,6 +20,8 @@ struct Uniform {
     specular: LinearRgb,
     /// kd, which hemisphere lights mix their two colours by.
     coefficient: LinearRgb,
+    /// `diffuse` and `specular` in f32.
+    single: [[f32; 3]; 2],
 }
 
 /// The coefficients of a run.
@@ -26,6 +31,8 @@ pub(super) struct Products {
     material: Option<u32>,
     is_uniform: bool,
     emission: LinearRgb,
+    /// Sum over the lights.
+    ambient: LinearRgb,
     exponent: f64,
     uniform: Vec<Uniform>,
     /// Coefficients pixel by pixel, channel by channel: emission, ambient, diffuse, specular; the
@@ -62,12 +69,17 @@ impl Products {
         let of = Coefficients::of(&frame.scene.materials[material as usize], frame.rules);
         (self.emission, self.exponent) = (of.emission, of.exponent);
         self.uniform.clear();
-        self.uniform.extend(frame.lights.iter().map(|light| Uniform {
-            ambient: product(of.ambient, light.ambient.unwrap_or([0.0; 3])),
-            diffuse: product(of.diffuse, light.diffuse),
-            specular: product(of.specular, light.specular),
-            coefficient: of.diffuse,
+        self.uniform.extend(frame.lights.iter().map(|light| {
+            Uniform {
+                ambient: product(of.ambient, light.ambient.unwrap_or([0.0; 3])),
+                diffuse: product(of.diffuse, light.diffuse),
+                specular: product(of.specular, light.specular),
+                coefficient: of.diffuse,
+                single: [product(of.diffuse, light.diffuse), product(of.specular, light.specular)]
+                    .map(|color| color.map(|c| c as f32)),
+            }
         }));
+        self.ambient = [0, 1, 2].map(|k| self.uniform.iter().map(|light| light.ambient[k]).sum());
     }
 
     /// Takes the coefficients that were [`set`](Self::set) pixel by pixel.
@@ -108,8 +120,11 @@ impl LaneProducts<'_> {
     #[inline(always)]
     fn varying<S: Simd>(self, simd: S, at: usize) -> Vectors<S> {
         let rows = &self.of.varying;
-        let load = |k: usize| vector::load(simd, &rows[at + k], self.start);
-        [load(0), load(1), load(2)]
+        [
+            vector::load(simd, &rows[at], self.start),
+            vector::load(simd, &rows[at + 1], self.start),
+            vector::load(simd, &rows[at + 2], self.start),
+        ]
     }
 
     #[inline(always)]
@@ -170,6 +185,92 @@ impl LaneProducts<'_> {
             coefficient,
             has_diffuse: !is_black(light.diffuse),
             has_specular: !is_black(light.specular),
+        }
+    }
+}
+
+/// In f32, sixteen at once, for `single`.
+impl LaneProducts<'_> {
+    #[inline(always)]
+    fn varying_single<S: Simd>(self, simd: S, at: usize) -> SingleVectors<S> {
+        let rows = &self.of.varying;
+        [
+            single_vector::narrowed(simd, &rows[at], self.start),
+            single_vector::narrowed(simd, &rows[at + 1], self.start),
+            single_vector::narrowed(simd, &rows[at + 2], self.start),
+        ]
+    }
+
+    #[inline(always)]
+    pub(super) fn exponent_single<S: Simd>(self, simd: S) -> f32x16<S> {
+        match self.of.is_uniform {
+            true => f32x16::splat(simd, self.of.exponent as f32),
+            false => single_vector::narrowed(simd, &self.of.varying[EXPONENT], self.start),
+        }
+    }
+
+    /// ke + Σ ka·Ia.
+    #[inline(always)]
+    pub(super) fn base_single<S: Simd>(
+        self,
+        simd: S,
+        frame: &Frame<'_>,
+        has_emission: bool,
+    ) -> SingleVectors<S> {
+        if self.of.is_uniform {
+            let of = self.of;
+            let emission = if has_emission { of.emission } else { [0.0; 3] };
+            let sum = [
+                (emission[0] + of.ambient[0]) as f32,
+                (emission[1] + of.ambient[1]) as f32,
+                (emission[2] + of.ambient[2]) as f32,
+            ];
+            return single_vector::splat(simd, sum);
+        }
+        let mut ambient = [0.0_f64; 3];
+        for light in frame.lights.iter().filter_map(|light| light.ambient) {
+            ambient = [ambient[0] + light[0], ambient[1] + light[1], ambient[2] + light[2]];
+        }
+        let ambient = [ambient[0] as f32, ambient[1] as f32, ambient[2] as f32];
+        let ambient = single_vector::product(
+            self.varying_single(simd, AMBIENT),
+            single_vector::splat(simd, ambient),
+        );
+        match has_emission {
+            true => single_vector::add(self.varying_single(simd, EMISSION), ambient),
+            false => ambient,
+        }
+    }
+
+    /// kd·Id and ks·Is of the frame's light at `position`.
+    #[inline(always)]
+    pub(super) fn of_light_single<S: Simd>(
+        self,
+        simd: S,
+        position: usize,
+        light: &SingleLight,
+    ) -> SingleColors<S> {
+        if self.of.is_uniform {
+            let colors = &self.of.uniform[position];
+            return SingleColors {
+                diffuse: single_vector::splat(simd, colors.single[0]),
+                specular: single_vector::splat(simd, colors.single[1]),
+                has_diffuse: !is_black(colors.diffuse),
+                has_specular: !is_black(colors.specular),
+            };
+        }
+        let (diffuse, specular) = (light.diffuse, light.specular);
+        SingleColors {
+            diffuse: single_vector::product(
+                self.varying_single(simd, DIFFUSE),
+                single_vector::splat(simd, diffuse),
+            ),
+            specular: single_vector::product(
+                self.varying_single(simd, SPECULAR),
+                single_vector::splat(simd, specular),
+            ),
+            has_diffuse: diffuse != [0.0; 3],
+            has_specular: specular != [0.0; 3],
         }
     }
 }

@@ -12,8 +12,8 @@ use crate::shade::reach::{Bounds, RUN};
 use crate::shade::watch::Nobody;
 use fearless_simd::prelude::*;
 
-/// Numbers of a run: as many as it has pixels, and what the last eight lanes reach beyond.
-const WIDTH: usize = RUN + LANES;
+/// Numbers of a run: as many as it has pixels, and what the last lanes reach beyond.
+const WIDTH: usize = RUN + 2 * LANES;
 
 /// Neighbouring pixels that see the same side of a triangle.
 #[derive(Clone, Copy, Debug)]
@@ -38,6 +38,8 @@ pub(in crate::shade) struct Run {
     pub(super) t_high: [f64; WIDTH],
     pub(super) position: [[f64; WIDTH]; 3],
     pub(super) normal: [[f64; WIDTH]; 3],
+    /// Normals of `single`.
+    pub(super) mean_normal: [[f32; WIDTH]; 3],
     pub(super) segments: Vec<Segment>,
     /// The pixels of the segments, as bits.
     pub(super) live: u32,
@@ -56,6 +58,7 @@ impl Run {
             t_high: [0.0; WIDTH],
             position: [[0.0; WIDTH]; 3],
             normal: [[0.0; WIDTH]; 3],
+            mean_normal: [[0.0; WIDTH]; 3],
             segments: Vec::with_capacity(RUN),
             live: 0,
             doubtful: 0,

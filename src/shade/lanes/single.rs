@@ -1,0 +1,59 @@
+//! Sixteen pixels at once in f32: the equation as `light` has it, where an error of f32 is allowed.
+//!
+//! For pictures whose files hold f32 anyway. Decisions stay those of f64: a lane in which f32 cannot
+//! tell the sign of N·L or the side of a cone's rim, or in which one of the conditions below fails,
+//! is left to the lanes of f64. So is everything that these leave to the scalar kernel.
+//!
+//! Positions are relative to the eye, so that no coordinate's size matters: a point is t·d, and a
+//! light is at its own position minus the eye's, both differences of f64.
+//!
+//! Error, in u = 2^-24, as lengths of difference vectors. N: 5u for the mean over |mean| ≥ ½, 4.5u
+//! for the unit vector: 15u. Way to a light: u·(|l| + 3.3|p| + |way|), by [`NEAREST`] at most 15u of
+//! its length; L: 20u. V: 6u. N·L: 38u. H: 27u over |L + V| ≥ ½ and 4.5u more: 59u. |N − H|: 75u.
+//! The lobe (1 − c²/2)^n changes with c by 1.5√n at most for n ≥ 1, and the power itself is good to
+//! 10u: (113√ns + 10)u; the falloff by |L − S| ≤ 22u: (33√e + 10)u. Attenuation: 42u relative. With
+//! P_j = (kd·Id + ks·Is)/(a + b·r + c·r²), the light's radiance where everything else is 1, a light is
+//! off by (111 + 33√e + 113√ns)·u·P_j. Phong's R = 2(N·L)N − L is off by 126u, which makes 201√ns of
+//! 113√ns. Sums are off by a few u of the radiance itself: all at most [`ERROR`]·(1 + √e + √ns)·P_j.
+
+mod chunk;
+mod frame;
+mod light;
+mod normals;
+mod power;
+pub(super) mod vector;
+
+pub(super) use chunk::shade;
+pub(super) use frame::{SingleFrame, SingleLight};
+pub(super) use light::Colors;
+
+/// Pixels at once.
+const LANES: usize = 16;
+
+/// Error of radiance per 1 + √e + √ns and P_j, see above; 2^-16, 256u.
+pub(in crate::shade) const ERROR: f64 = 1.0 / 65_536.0;
+
+/// A light is near where |l|² + |p|² > 16·|way|²: there |l| + 3.3|p| ≤ 3.45·4·|way|.
+const NEAREST: f32 = 16.0;
+
+/// Below this |N·L| its sign is asked of f64: above the 38u of its error; 2^-18.
+const SMALLEST_COSINE: f32 = 1.0 / 262_144.0;
+
+/// Closer to the rim than this, as a chord, the side is asked of f64: above 22u; 2^-18.
+const RIM: f64 = 1.0 / 262_144.0;
+
+/// Smallest |L + V|² and |mean of the corner normals|² in f32.
+const SMALLEST_MEAN: f32 = 0.25;
+
+/// Largest half width of t's certain interval, relative to t: 2^-26, a quarter of u.
+const T_WIDTH: f64 = 1.0 / 67_108_864.0;
+
+/// Numbers of the scene that f32 takes: 0, or 2^-40 … 2^40, so that no product of the equation
+/// leaves the range of f32.
+const NUMBERS: std::ops::RangeInclusive<f64> = 1.0 / 1_099_511_627_776.0..=1_099_511_627_776.0;
+
+/// Squared distances that f32 takes, likewise.
+const SQUARED_DISTANCES: [f32; 2] = [1.0 / 1_099_511_627_776.0, 1_099_511_627_776.0];
+
+/// Exponents that f32 takes: 0, or 1 … 2^24. Below 1 a lobe is steep where it ends.
+const EXPONENTS: std::ops::RangeInclusive<f64> = 1.0..=16_777_216.0;
