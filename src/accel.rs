@@ -9,12 +9,14 @@ mod cost;
 mod entries;
 mod node;
 mod preset;
+mod stored;
 mod topology;
 mod traverse;
 mod wide;
 
 pub(crate) use entries::LeafTriangle;
 pub use preset::BuildPreset;
+pub use stored::{StoredFault, TreeKey};
 pub(crate) use traverse::{Pending, Segment, Slabs};
 pub(crate) use wide::{GROUP, Leaf, Link, Linked, NO_TRIANGLE, WIDTH, WideNode, WideTree};
 

@@ -17,6 +17,7 @@ mod progress;
 pub mod shadows;
 mod subsamples;
 mod surface_planes;
+mod tree_cache;
 pub mod visible;
 
 pub use accuracy::Accuracy;
@@ -28,6 +29,7 @@ pub use expose::{Exposure, expose};
 pub use measure::{EffectTime, ShadingTimes, measure};
 pub use planes::{PlaneGroup, PlaneGroups, UnknownPlane};
 pub use progress::{Progress, Unwatched};
+pub use tree_cache::{CachedTree, TreeSource, cached_tree};
 
 use crate::accel::BuildPreset;
 use crate::film::Film;
@@ -35,6 +37,7 @@ use crate::pixel::Window;
 use crate::scene::Scene;
 use crate::shade::Notes;
 use crate::visibility::{Counting, LevelCounts, VisibilityBuffer};
+use std::path::PathBuf;
 use std::time::{Duration, Instant};
 use visible::{Listing, VisibleTriangle};
 
@@ -64,6 +67,8 @@ pub struct RenderOptions {
     /// Build preset of the cast path's BVH, or of one for shadows alone. It changes time, never a bit
     /// of the film.
     pub preset: BuildPreset,
+    /// Folder in which BVHs are kept between runs; `None` for none.
+    pub bvh_cache: Option<PathBuf>,
     /// Whether the visible triangles are listed, and how finely they are looked for.
     pub listing: Option<Listing>,
 }
@@ -76,6 +81,7 @@ impl Default for RenderOptions {
             window: None,
             planes: PlaneGroups::standard(),
             preset: BuildPreset::Medium,
+            bvh_cache: None,
             listing: None,
         }
     }
@@ -122,8 +128,12 @@ pub struct Account {
     pub description: String,
     /// Memory of the scene's triangles and their attributes, in bytes.
     pub mesh_bytes: usize,
-    /// Memory of the BVH, in bytes; `None` where none was built.
+    /// Memory of the BVH, in bytes; `None` where there was none.
     pub tree_bytes: Option<usize>,
+    /// Where the BVH came from.
+    pub tree_source: Option<TreeSource>,
+    /// What is to be told of the folder of BVHs.
+    pub tree_remark: Option<String>,
     /// Where the time went.
     pub times: FrameTimes,
 }

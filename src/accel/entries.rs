@@ -192,7 +192,7 @@ fn compare_boxes(a: &Bounds, b: &Bounds) -> Ordering {
 
 /// The corners' bits, −0 as +0, rotated so that the smallest corner comes first: equal exactly
 /// for triangles that cover the same samples with the same sign of V at the same t.
-fn canonical_bits(vertices: &[[f32; 3]; 3]) -> [[u32; 3]; 3] {
+pub(super) fn canonical_bits(vertices: &[[f32; 3]; 3]) -> [[u32; 3]; 3] {
     let [a, b, c] = vertices.map(|vertex| vertex.map(|component| (component + 0.0).to_bits()));
     if mutant::is(Mutant::FoldedReversed) {
         let mut corners = [a, b, c];

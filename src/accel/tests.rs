@@ -13,7 +13,7 @@ fn mesh_of(triangles: &[[[f32; 3]; 3]]) -> TriangleMesh {
 }
 
 /// Walks the tree: boxes are the union of what they hold, and every triangle is in one leaf.
-fn check(accelerator: &Accelerator) {
+pub(super) fn check(accelerator: &Accelerator) {
     let tree = &accelerator.tree;
     let mut seen = HashMap::new();
     for &root in &tree.roots {

@@ -167,7 +167,8 @@ pub(super) fn widen(tree: &Tree) -> WideTree {
     wide
 }
 
-const EMPTY_NODE: WideNode =
+/// A node without children.
+pub(super) const EMPTY_NODE: WideNode =
     WideNode { planes: [[[0.0; WIDTH]; 3]; 2], children: [0; WIDTH], count: 0 };
 
 /// The range of triangles below each node. Children come after their parents.
@@ -230,8 +231,26 @@ fn push_leaf(wide: &mut WideTree, tree: &Tree, [first, end]: [u32; 2]) -> Link {
     link
 }
 
+/// Appends the lanes of a leaf by their ids, [`NO_TRIANGLE`] where padded.
+pub(super) fn push_lanes(
+    wide: &mut WideTree,
+    ids: &[u32],
+    vertices_of: impl Fn(u32) -> [[f32; 3]; 3],
+) {
+    for corner in 0..3 {
+        for axis in 0..3 {
+            let position = |&id: &u32| match id {
+                NO_TRIANGLE => 0.0,
+                id => vertices_of(id)[corner][axis],
+            };
+            wide.vertices.extend(ids.iter().map(position));
+        }
+    }
+    wide.ids.extend_from_slice(ids);
+}
+
 /// Ends the arrays of lanes.
-fn pad(wide: &mut WideTree) {
+pub(super) fn pad(wide: &mut WideTree) {
     wide.vertices.extend([0.0; WIDTH]);
     wide.ids.extend([NO_TRIANGLE; WIDTH]);
     wide.vertices.shrink_to_fit();

@@ -109,6 +109,10 @@ pub(super) struct RenderArguments {
     /// pixel centre sees; even these are not all: a sliver may lie between sub-samples
     #[arg(long, value_name = "N", requires = "visible", value_parser = parse_subpixel)]
     pub(super) subpixel: Option<SubsampleGrid>,
+    /// Folder in which BVHs are kept between runs, under the digest of their triangles; a damaged file
+    /// is not used
+    #[arg(long, value_name = "DIR")]
+    pub(super) bvh_cache: Option<PathBuf>,
     /// Leave out faces of mesh files with a corner that is not finite or out of range, with a
     /// warning, instead of stopping; ids count the triangles that remain
     #[arg(long)]

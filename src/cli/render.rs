@@ -60,6 +60,7 @@ fn run_here(arguments: &RenderArguments, writing: &Writing) -> Result<u8, Failur
     let options = RenderOptions {
         path,
         preset,
+        bvh_cache: arguments.bvh_cache.clone(),
         accuracy,
         window,
         planes,
@@ -72,6 +73,9 @@ fn run_here(arguments: &RenderArguments, writing: &Writing) -> Result<u8, Failur
     let mut outputs = Outputs::new(&targets, frame, options.window.unwrap_or(frame.window()));
     let account = render_bands(&scene, &options, &bar, |band| outputs.append(&band))?;
     bar.finish();
+    if let (Some(remark), false) = (&account.tree_remark, arguments.quiet) {
+        output::print_warnings(std::slice::from_ref(remark));
+    }
     let (writing_began, encoding) = (Instant::now(), outputs.encoding);
     let mut written = outputs.write(writing)?;
     if let (Some(path), Some(list)) = (&arguments.visible, &account.visible) {
@@ -124,8 +128,13 @@ fn choose(
         PathWord::Cast => VisibilityPath::Cast,
         PathWord::Raster => VisibilityPath::Raster,
     });
-    let mut ways = predictions.iter();
-    let quickest = ways.find(|way| asked.is_none_or(|path| way.path == path));
+    let ways = predictions.iter().filter(|way| asked.is_none_or(|path| way.path == path));
+    // Who keeps trees means to use them more than once: building one does not count.
+    let time = |way: &&Prediction| match &arguments.bvh_cache {
+        Some(_) => way.rays,
+        None => way.total(),
+    };
+    let quickest = ways.min_by(|a, b| time(a).total_cmp(&time(b)));
     let path = quickest.map_or(VisibilityPath::default(), |way| way.path);
     (path, quickest.and_then(|way| way.preset).unwrap_or_default())
 }

@@ -14,10 +14,11 @@ use crate::shade::Effects;
 
 /// Core seconds of each kind of work.
 ///
-/// Measured with `truecast bench` at 1920 × 1080 on one thread of a Zen 5 core at 3.7 GHz: the rows
-/// "build", "closest hit" and "raster" of its scenes of 57 thousand to 4 million triangles, each line
-/// of numbers fitted by eye to within a factor of 2. On another machine all of them change by about
-/// the same factor, which changes no choice.
+/// Measured as user and system time of `truecast render --threads 1 --aov rgba` on a Zen 5 core, on an
+/// interior of 57 thousand triangles, an atrium of 66 thousand and a torus of 2 million, at 64 × 36 and
+/// at 1920 × 1080, with `--path cast`, `--path raster` and a fresh `--bvh-cache` (which takes
+/// [`BuildPreset::Medium`]); differences of these divided by triangles or pixels, to about a third.
+/// On another machine all of them change by about the same factor, which changes no choice.
 struct Costs {
     /// Building, per triangle, with [`BuildPreset::Fastest`] and [`BuildPreset::Medium`].
     build: [f64; 2],
@@ -29,20 +30,20 @@ struct Costs {
     cast_triangle: f64,
     /// A ray to a light, alone.
     shadow_ray: f64,
-    /// A pixel of the rasterizer.
+    /// A pixel of the rasterizer, with all that a buffer holds of it.
     raster_pixel: f64,
     /// A triangle of the rasterizer.
     raster_triangle: f64,
 }
 
 const COSTS: Costs = Costs {
-    build: [1.0e-7, 3.5e-7],
+    build: [6.0e-7, 1.2e-6],
     slower_rays: 1.1,
-    cast_ray: 2.0e-9,
+    cast_ray: 1.2e-8,
     cast_triangle: 2.0e-8,
-    shadow_ray: 1.0e-7,
-    raster_pixel: 2.0e-9,
-    raster_triangle: 3.0e-8,
+    shadow_ray: 3.0e-7,
+    raster_pixel: 1.0e-7,
+    raster_triangle: 1.6e-7,
 };
 
 /// A way to make a frame, and what it is predicted to take.

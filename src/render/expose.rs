@@ -40,7 +40,12 @@ pub fn expose(
     effects: Effects,
     progress: &dyn Progress,
 ) -> Exposure {
-    let built = occluders(scene, answerer, effects, BuildPreset::Medium, progress);
+    let built = occluders(answerer, effects, || {
+        progress.begin("build", 1);
+        let built = Accelerator::build(&scene.mesh, BuildPreset::Medium);
+        progress.step();
+        built
+    });
     expose_with(scene, answerer, built.of(answerer), (nearest, layers), effects, progress)
 }
 
@@ -59,19 +64,12 @@ impl Occluders {
 
 /// Shadows need a BVH, whichever path found what is visible.
 pub(super) fn occluders(
-    scene: &Scene,
     answerer: &Answerer,
     effects: Effects,
-    preset: BuildPreset,
-    progress: &dyn Progress,
+    build: impl FnOnce() -> Accelerator,
 ) -> Occluders {
     let is_needed = matches!(answerer, Answerer::Raster) && effects.has(Effects::SHADOWS);
-    Occluders(is_needed.then(|| {
-        progress.begin("build", 1);
-        let built = Accelerator::build(&scene.mesh, preset);
-        progress.step();
-        built
-    }))
+    Occluders(is_needed.then(build))
 }
 
 /// [`expose`] with a tree for shadows at hand, if there are any.

@@ -74,7 +74,9 @@ fn in_bands(scene: &Scene, options: &RenderOptions) -> (Vec<(String, Vec<u32>)>,
         }
         Ok::<_, Infallible>(())
     };
-    render_bands(scene, options, &Unwatched, append).unwrap();
+    // Bands grow with the number of threads.
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
+    pool.install(|| render_bands(scene, options, &Unwatched, append)).unwrap();
     (planes, count)
 }
 
@@ -197,4 +199,60 @@ fn the_program_tells_its_way_and_every_way_gives_the_same_picture() {
     let picked = told["path"].as_str().unwrap();
     assert!(text.contains(&format!("path       {picked}")), "{text}");
     assert!(text.contains("bytes per triangle"), "{text}");
+}
+
+#[test]
+fn kept_trees_are_used_and_damaged_ones_are_not() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("scene.toml"), SCENE).unwrap();
+    let run = |file: &str, more: &[&str]| -> (String, Vec<u8>, String) {
+        let arguments = ["render", "scene.toml", "-o", file, "--json", "--path", "cast"];
+        let (status, stdout, stderr) = truecast(folder.path(), &[&arguments, more].concat());
+        assert_eq!(status, 0, "{stderr}");
+        let told: Value = serde_json::from_str(&stdout).unwrap();
+        let source = told["bvh_source"].as_str().unwrap().to_owned();
+        (source, std::fs::read(folder.path().join(file)).unwrap(), stderr)
+    };
+    let cached = ["--bvh-cache", "trees/here"];
+    let (source, plain, _) = run("plain.exr", &[]);
+    assert_eq!(source, "built");
+    assert!(!folder.path().join("trees").exists());
+    assert_eq!(
+        run("first.exr", &cached),
+        ("built and kept".to_owned(), plain.clone(), String::new())
+    );
+    assert_eq!(run("again.exr", &cached), ("loaded".to_owned(), plain.clone(), String::new()));
+
+    let kept = || -> Vec<std::path::PathBuf> {
+        let files = std::fs::read_dir(folder.path().join("trees/here")).unwrap();
+        files.map(|file| file.unwrap().path()).collect()
+    };
+    let [file] = kept().try_into().unwrap();
+    let whole = std::fs::read(&file).unwrap();
+    let mut changed = whole.clone();
+    changed[whole.len() / 2] ^= 1;
+    let long = vec![0; 1 << 20];
+    for (damaged, why) in [
+        (&whole[..whole.len() - 1], "digest"),
+        (&whole[..50], "cut short"),
+        (&[][..], "cut short"),
+        (&changed[..], "digest"),
+        (&long[..], "too long"),
+    ] {
+        std::fs::write(&file, damaged).unwrap();
+        let (source, picture, stderr) = run("damaged.exr", &cached);
+        assert_eq!(source, "built and kept", "{why}");
+        assert!(picture == plain, "{why}");
+        assert!(stderr.contains(why) && stderr.contains("built anew"), "{stderr}");
+        assert!(std::fs::read(&file).unwrap() == whole, "{why}: it is replaced");
+    }
+    // A folder that cannot be one is told and no failure; another scene has a file of its own.
+    let (source, picture, stderr) = run("none.exr", &["--bvh-cache", "scene.toml"]);
+    assert_eq!(source, "built");
+    assert!(picture == plain);
+    assert!(stderr.contains("scene.toml"), "{stderr}");
+    let moved = SCENE.replace("translate = [0, 1, 0]", "translate = [0, 1.5, 0]");
+    std::fs::write(folder.path().join("scene.toml"), moved).unwrap();
+    assert_eq!(run("moved.exr", &cached).0, "built and kept");
+    assert_eq!(kept().len(), 2);
 }

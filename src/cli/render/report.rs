@@ -8,7 +8,7 @@ use serde_json::json;
 use std::time::Duration;
 use truecast::pixel::Window;
 use truecast::render::visible::SubsampleGrid;
-use truecast::render::{Account, Accuracy, Prediction, RenderOptions};
+use truecast::render::{Account, Accuracy, Prediction, RenderOptions, TreeSource};
 use truecast::scene::Scene;
 use truecast::shade::Notes;
 
@@ -173,6 +173,12 @@ impl Report<'_> {
             "path": path_name(options.path),
             "path_chosen_by": if arguments.path.is_some() { "user" } else { "prediction" },
             "preset": account.tree_bytes.map(|_| preset_name(options.preset)),
+            "bvh_source": account.tree_source.map(|source| match source {
+                TreeSource::Built => "built",
+                TreeSource::Kept => "built and kept",
+                TreeSource::Loaded => "loaded",
+            }),
+            "bvh_remark": account.tree_remark,
             "predictions": predictions_document(predictions),
             "memory": {
                 "mesh_bytes": account.mesh_bytes,
