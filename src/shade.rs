@@ -2,7 +2,7 @@
 //!
 //! Local illumination only: light, surface, eye. What is visible was decided before; nothing here
 //! casts a ray. Radiance is linear, unclamped f64, and the same bits on every platform (`libm`'s
-//! functions, fixed order of sums). Read `equation` for the equation, `effects` for what a scene
+//! functions and `power`'s, fixed order of sums), one pixel after the other or several at once. Read `equation` for the equation, `effects` for what a scene
 //! calls for, `surface` for the point that is lit.
 
 pub mod blinn_phong;
@@ -23,8 +23,8 @@ mod kernel_effects;
 mod lanes;
 mod lights;
 mod method;
+mod options;
 mod power;
-mod precision;
 mod reach;
 pub mod reflection;
 mod specular;
@@ -40,7 +40,7 @@ pub use doubt::doubts;
 pub use effects::Effects;
 pub use flat_faults::{FlatFault, flat_faults};
 pub use frame::{Asker, Occlusion};
-pub use precision::Precision;
+pub use options::{Precision, ShadeOptions, single_error};
 pub use surface::{SurfacePoint, surface_point};
 pub use terms::{LightTerm, Outcome, Terms};
 pub use watch::{Evaluations, Notes};
@@ -49,7 +49,6 @@ use crate::color::LinearRgb;
 use crate::pixel::{self, Pixel};
 use crate::scene::Scene;
 use crate::scene::material::Material;
-use crate::simd::SimdLevel;
 use crate::visibility::{VisibilityBuffer, Visible};
 use coefficients::Coefficients;
 use equation::Lighting;
@@ -85,33 +84,6 @@ pub fn shade(
     done: &(dyn Fn() + Sync),
 ) -> Shaded {
     shade_with(scene, buffer, &ShadeOptions::new(effects), None, done)
-}
-
-/// What is evaluated, and by which instructions.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct ShadeOptions {
-    /// The effects that are evaluated; see [`shade`].
-    pub effects: Effects,
-    /// The instruction set that shades several pixels at once; `None` shades pixel by pixel. It
-    /// changes time, never a bit.
-    pub simd: Option<SimdLevel>,
-    /// The numbers that it computes with.
-    pub precision: Precision,
-}
-
-impl ShadeOptions {
-    /// With the best instruction set of this machine, in f64.
-    pub fn new(effects: Effects) -> Self {
-        Self { effects, simd: Some(SimdLevel::best()), precision: Precision::Double }
-    }
-}
-
-/// How far a pixel of [`Precision::Single`] may be from that of [`Precision::Double`]: this times
-/// Σ_j P_j, where P_j = (kd·Id_j + ks·Is_j)/(a_j + b_j·r_j + c_j·r_j²) is the radiance that light j
-/// would give straight on, plus 2^-20 of the pixel itself. `exponent` is ns, `falloff` the largest
-/// exponent of the lights' cones.
-pub fn single_error(exponent: f64, falloff: f64) -> f64 {
-    lanes::single::ERROR * (1.0 + exponent.sqrt() + falloff.sqrt())
 }
 
 /// As [`shade`] and, with somebody to ask, [`shade_with_shadows`], by instructions of choice.

@@ -7,7 +7,7 @@ use super::kernel_effects::KernelEffects;
 use super::lanes::{Cones, Lanes};
 use super::lights::{self, Origin, PreparedLight, is_black};
 use super::method::Method;
-use super::precision::Precision;
+use super::options::Precision;
 use super::watch::Watch;
 use crate::pixel::Pixel;
 use crate::scene::Scene;

@@ -23,7 +23,7 @@ pub(super) use run::Run;
 use super::effects::Effects;
 use super::frame::{Frame, RowAsker, is_hidden};
 use super::lights::{Origin, PreparedLight};
-use super::precision::Precision;
+use super::options::Precision;
 use super::vector::largest_component;
 use crate::color::LinearRgb;
 use crate::pixel::Pixel;

@@ -1,27 +1,24 @@
 //! Coefficients times the lights' colours: found once for a run of one material, else lane by lane.
 
 use super::LANES;
-use super::single::vector::Vectors as SingleVectors;
-use super::single::{Colors as SingleColors, SingleLight, vector as single_vector};
 use super::vector::{self, Reals, Vectors};
 use crate::color::LinearRgb;
 use crate::shade::coefficients::{Coefficients, product};
 use crate::shade::frame::Frame;
 use crate::shade::lights::{PreparedLight, is_black};
 use crate::shade::reach::RUN;
-use fearless_simd::f32x16;
 use fearless_simd::prelude::*;
 
 /// Colours of one light as a surface returns them.
 #[derive(Clone, Copy, Debug)]
-struct Uniform {
+pub(super) struct Uniform {
     ambient: LinearRgb,
-    diffuse: LinearRgb,
-    specular: LinearRgb,
+    pub(super) diffuse: LinearRgb,
+    pub(super) specular: LinearRgb,
     /// kd, which hemisphere lights mix their two colours by.
     coefficient: LinearRgb,
     /// `diffuse` and `specular` in f32.
-    single: [[f32; 3]; 2],
+    pub(super) single: [[f32; 3]; 2],
 }
 
 /// The coefficients of a run.
@@ -29,23 +26,23 @@ struct Uniform {
 pub(super) struct Products {
     /// The material that `uniform` is of.
     material: Option<u32>,
-    is_uniform: bool,
-    emission: LinearRgb,
+    pub(super) is_uniform: bool,
+    pub(super) emission: LinearRgb,
     /// Sum over the lights.
-    ambient: LinearRgb,
-    exponent: f64,
-    uniform: Vec<Uniform>,
+    pub(super) ambient: LinearRgb,
+    pub(super) exponent: f64,
+    pub(super) uniform: Vec<Uniform>,
     /// Coefficients pixel by pixel, channel by channel: emission, ambient, diffuse, specular; the
     /// exponent last. Empty until a run needs them.
-    varying: Vec<[f64; RUN]>,
+    pub(super) varying: Vec<[f64; RUN]>,
 }
 
 /// Where the coefficients of [`Coefficients`] stand in [`Products::varying`].
-const EMISSION: usize = 0;
-const AMBIENT: usize = 3;
-const DIFFUSE: usize = 6;
-const SPECULAR: usize = 9;
-const EXPONENT: usize = 12;
+pub(super) const EMISSION: usize = 0;
+pub(super) const AMBIENT: usize = 3;
+pub(super) const DIFFUSE: usize = 6;
+pub(super) const SPECULAR: usize = 9;
+pub(super) const EXPONENT: usize = 12;
 
 /// The directed colours of a light in eight lanes.
 #[derive(Clone, Copy)]
@@ -112,8 +109,8 @@ impl Products {
 /// The coefficients of eight pixels of a run.
 #[derive(Clone, Copy)]
 pub(super) struct LaneProducts<'a> {
-    of: &'a Products,
-    start: usize,
+    pub(super) of: &'a Products,
+    pub(super) start: usize,
 }
 
 impl LaneProducts<'_> {
@@ -185,92 +182,6 @@ impl LaneProducts<'_> {
             coefficient,
             has_diffuse: !is_black(light.diffuse),
             has_specular: !is_black(light.specular),
-        }
-    }
-}
-
-/// In f32, sixteen at once, for `single`.
-impl LaneProducts<'_> {
-    #[inline(always)]
-    fn varying_single<S: Simd>(self, simd: S, at: usize) -> SingleVectors<S> {
-        let rows = &self.of.varying;
-        [
-            single_vector::narrowed(simd, &rows[at], self.start),
-            single_vector::narrowed(simd, &rows[at + 1], self.start),
-            single_vector::narrowed(simd, &rows[at + 2], self.start),
-        ]
-    }
-
-    #[inline(always)]
-    pub(super) fn exponent_single<S: Simd>(self, simd: S) -> f32x16<S> {
-        match self.of.is_uniform {
-            true => f32x16::splat(simd, self.of.exponent as f32),
-            false => single_vector::narrowed(simd, &self.of.varying[EXPONENT], self.start),
-        }
-    }
-
-    /// ke + Σ ka·Ia.
-    #[inline(always)]
-    pub(super) fn base_single<S: Simd>(
-        self,
-        simd: S,
-        frame: &Frame<'_>,
-        has_emission: bool,
-    ) -> SingleVectors<S> {
-        if self.of.is_uniform {
-            let of = self.of;
-            let emission = if has_emission { of.emission } else { [0.0; 3] };
-            let sum = [
-                (emission[0] + of.ambient[0]) as f32,
-                (emission[1] + of.ambient[1]) as f32,
-                (emission[2] + of.ambient[2]) as f32,
-            ];
-            return single_vector::splat(simd, sum);
-        }
-        let mut ambient = [0.0_f64; 3];
-        for light in frame.lights.iter().filter_map(|light| light.ambient) {
-            ambient = [ambient[0] + light[0], ambient[1] + light[1], ambient[2] + light[2]];
-        }
-        let ambient = [ambient[0] as f32, ambient[1] as f32, ambient[2] as f32];
-        let ambient = single_vector::product(
-            self.varying_single(simd, AMBIENT),
-            single_vector::splat(simd, ambient),
-        );
-        match has_emission {
-            true => single_vector::add(self.varying_single(simd, EMISSION), ambient),
-            false => ambient,
-        }
-    }
-
-    /// kd·Id and ks·Is of the frame's light at `position`.
-    #[inline(always)]
-    pub(super) fn of_light_single<S: Simd>(
-        self,
-        simd: S,
-        position: usize,
-        light: &SingleLight,
-    ) -> SingleColors<S> {
-        if self.of.is_uniform {
-            let colors = &self.of.uniform[position];
-            return SingleColors {
-                diffuse: single_vector::splat(simd, colors.single[0]),
-                specular: single_vector::splat(simd, colors.single[1]),
-                has_diffuse: !is_black(colors.diffuse),
-                has_specular: !is_black(colors.specular),
-            };
-        }
-        let (diffuse, specular) = (light.diffuse, light.specular);
-        SingleColors {
-            diffuse: single_vector::product(
-                self.varying_single(simd, DIFFUSE),
-                single_vector::splat(simd, diffuse),
-            ),
-            specular: single_vector::product(
-                self.varying_single(simd, SPECULAR),
-                single_vector::splat(simd, specular),
-            ),
-            has_diffuse: diffuse != [0.0; 3],
-            has_specular: specular != [0.0; 3],
         }
     }
 }

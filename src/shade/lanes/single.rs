@@ -21,11 +21,11 @@ mod frame;
 mod light;
 mod normals;
 mod power;
-pub(super) mod vector;
+mod products;
+mod vector;
 
 pub(super) use chunk::shade;
-pub(super) use frame::{SingleFrame, SingleLight};
-pub(super) use light::Colors;
+pub(super) use frame::SingleFrame;
 
 /// Pixels at once.
 const LANES: usize = 16;

@@ -8,7 +8,7 @@ use crate::shade::lights::{Origin, PreparedLight};
 
 /// A light in f32.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::shade::lanes) struct SingleLight {
+pub(super) struct SingleLight {
     /// Whether it has a directed part.
     pub(super) is_directed: bool,
     /// Unit, towards it; zero for a light at a point.
@@ -20,13 +20,13 @@ pub(in crate::shade::lanes) struct SingleLight {
     /// a, b, c.
     pub(super) attenuation: Option<[f32; 3]>,
     pub(super) cone: Option<SingleCone>,
-    pub(in crate::shade::lanes) diffuse: [f32; 3],
-    pub(in crate::shade::lanes) specular: [f32; 3],
+    pub(super) diffuse: [f32; 3],
+    pub(super) specular: [f32; 3],
 }
 
 /// A cone in f32.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::shade::lanes) struct SingleCone {
+pub(super) struct SingleCone {
     pub(super) axis: [f32; 3],
     /// 1 − L·S up to which a direction is certainly inside, and from which on certainly outside.
     pub(super) rim: Option<[f32; 2]>,

@@ -22,11 +22,11 @@ pub(super) struct Point<S: Simd> {
 
 /// The directed colours of a light.
 #[derive(Clone, Copy)]
-pub(in crate::shade::lanes) struct Colors<S: Simd> {
-    pub(in crate::shade::lanes) diffuse: Vectors<S>,
-    pub(in crate::shade::lanes) specular: Vectors<S>,
-    pub(in crate::shade::lanes) has_diffuse: bool,
-    pub(in crate::shade::lanes) has_specular: bool,
+pub(super) struct Colors<S: Simd> {
+    pub(super) diffuse: Vectors<S>,
+    pub(super) specular: Vectors<S>,
+    pub(super) has_diffuse: bool,
+    pub(super) has_specular: bool,
 }
 
 /// Adds the directed part of a light to `radiance`, and says in which lanes f64 must be asked.
