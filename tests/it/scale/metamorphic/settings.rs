@@ -12,8 +12,8 @@ use truecast::raster::{rasterize, rasterize_in_tiles};
 use truecast::scene::Scene;
 use truecast::visibility::Counting;
 
-/// Tile sides, threads and build presets, on a frame of many tiles. (Both paths are scalar or
-/// choose no instruction set by a switch, so there is no SIMD width to vary.)
+/// Tile sides, threads and build presets, on a frame of many tiles. (The rasterizer's
+/// instruction sets are varied in `raster::levels`.)
 #[test]
 fn h84_settings() {
     let mut triangles = pixel_grid(101, 4, 8.0);
