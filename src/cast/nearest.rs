@@ -49,7 +49,8 @@ pub fn cast_nearest_into(
             let mut memory =
                 Memory { same_plane: SamePlane::new(&pairs), levels: LevelCounts::default() };
             for window in strip.tiles(SIDE as u32) {
-                let samples = tile::cast_tile(&frame, window, options.simd, work, &mut memory);
+                let samples =
+                    tile::cast_tile::<true>(&frame, window, options.simd, work, &mut memory);
                 write(window, strip, samples, &mut ids, &mut t);
                 done();
             }

@@ -58,8 +58,8 @@ impl Work {
 }
 
 /// Finds the nearest triangle at every sample of `window`, at most [`SIDE`] on a side; `None` where
-/// no triangle shows at all.
-pub(super) fn cast_tile<'a>(
+/// no triangle shows at all. Without `CERTAIN` by the same kernel without its bounds: f32 is believed.
+pub(super) fn cast_tile<'a, const CERTAIN: bool>(
     frame: &Frame<'_>,
     window: Window,
     level: SimdLevel,
@@ -67,20 +67,7 @@ pub(super) fn cast_tile<'a>(
     memory: &mut Memory<'_>,
 ) -> Option<&'a Samples> {
     work.samples.begin();
-    dispatch!(level.dispatched(), simd => walk::<_, true>(simd, frame, window, work, memory));
-    work.samples.drawn.then_some(&work.samples)
-}
-
-/// As [`cast_tile`] by the same kernel without its bounds: f32 is believed.
-pub(super) fn cast_tile_unproven<'a>(
-    frame: &Frame<'_>,
-    window: Window,
-    level: SimdLevel,
-    work: &'a mut Work,
-    memory: &mut Memory<'_>,
-) -> Option<&'a Samples> {
-    work.samples.begin();
-    dispatch!(level.dispatched(), simd => walk::<_, false>(simd, frame, window, work, memory));
+    dispatch!(level.dispatched(), simd => walk::<_, CERTAIN>(simd, frame, window, work, memory));
     work.samples.drawn.then_some(&work.samples)
 }
 

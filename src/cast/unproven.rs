@@ -82,7 +82,7 @@ pub fn cast_unproven_into(
             let mut memory =
                 Memory { same_plane: SamePlane::new(&pairs), levels: LevelCounts::default() };
             for window in strip.tiles(SIDE as u32) {
-                let samples = tile::cast_tile_unproven(&frame, window, simd, work, &mut memory);
+                let samples = tile::cast_tile::<false>(&frame, window, simd, work, &mut memory);
                 nearest::write(window, strip, samples, &mut ids, &mut t);
             }
             return;

@@ -32,7 +32,8 @@ pub(super) fn cast_whole(
                 let mut memory =
                     Memory { same_plane: SamePlane::new(&pairs), levels: LevelCounts::default() };
                 for window in strip.tiles(side) {
-                    let tile = tile::cast_tile(&frame, window, options.simd, work, &mut memory);
+                    let tile =
+                        tile::cast_tile::<true>(&frame, window, options.simd, work, &mut memory);
                     if let Some(samples) = tile {
                         samples.count_levels(&mut memory.levels);
                         let top = (window.y0() - strip.y0()) as usize;
