@@ -186,7 +186,15 @@ fn draw_leaf<S: Simd, const CERTAIN: bool>(
         if batch.live != 0 {
             samples.clear(lattice.window);
             draw::draw::<S, CERTAIN>(
-                simd, frame, lattice.window, batch, live, first, scratch, samples, memory,
+                simd,
+                frame,
+                lattice.window,
+                batch,
+                live,
+                first,
+                scratch,
+                samples,
+                memory,
             );
         }
         first += crate::accel::GROUP;

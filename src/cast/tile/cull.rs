@@ -22,6 +22,7 @@
 
 use super::frame::{Frame, Lattice};
 use crate::accel::{GROUP, Leaf, NO_TRIANGLE, WIDTH, WideTree};
+use crate::mutant::{self, Mutant};
 use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, f32x16, u32x16};
 
 /// u = 2^-24.
@@ -189,11 +190,13 @@ fn look<S: Simd>(
     let margin =
         q * f32x16::splat(simd, LINEAR) * linear + f32x16::splat(simd, QUOTIENT) * (one + m);
     let whole = whole_tile(simd, cull);
+    let last_row = (y_hi + margin).floor();
+    let last_row = if mutant::is(Mutant::ShortSamples) { last_row - one } else { last_row };
     let spans = [
         in_front.select((x_lo - margin).ceil().max(whole[0]), whole[0]),
         in_front.select((x_hi + margin).floor().min(whole[1]), whole[1]),
         in_front.select((y_lo - margin).ceil().max(whole[2]), whole[2]),
-        in_front.select((y_hi + margin).floor().min(whole[3]), whole[3]),
+        in_front.select(last_row.min(whole[3]), whole[3]),
     ];
     let missed = spans[0].simd_gt(spans[1]) | spans[2].simd_gt(spans[3]);
     let absent = missed | (in_front & beyond) | behind;

@@ -57,6 +57,7 @@ impl Scratch {
 
 /// Draws the batch. Without `CERTAIN` what f32 says is believed, and the bounds of z are one number.
 #[inline(always)]
+#[allow(clippy::too_many_arguments, reason = "one loop over everything that a tile has")]
 pub(super) fn draw<S: Simd, const CERTAIN: bool>(
     simd: S,
     frame: &Frame<'_>,

@@ -12,6 +12,7 @@ use super::rows::Batch;
 use super::settle::{self, Memory, Open};
 use super::state::{self, Samples};
 use crate::accel::{GROUP, WIDTH};
+use crate::mutant::{self, Mutant};
 use crate::pixel::Window;
 use fearless_simd::{Simd, SimdBase, SimdCombine, SimdFloat, SimdMask, f32x8, f32x16};
 
@@ -50,7 +51,8 @@ pub(super) fn draw_small<S: Simd, const CERTAIN: bool>(
     let error = f32x8::load_array_ref(simd, &batch.depth_error);
     let error = error.combine(error);
     let lanes = lanes | lanes << GROUP;
-    let outside = f32x16::splat(simd, if CERTAIN { -1.0 } else { 0.0 });
+    let believed = mutant::is(Mutant::BelievedRows);
+    let outside = f32x16::splat(simd, if CERTAIN && !believed { -1.0 } else { 0.0 });
     let mut dirty = 0;
     for below in 0..2 {
         let y = if below == 0 { top } else { top + one };
@@ -95,16 +97,18 @@ pub(super) fn draw_small<S: Simd, const CERTAIN: bool>(
                 }
                 continue;
             }
-            if hi < *z_lo {
+            if hi < *z_lo || believed && hi <= *z_hi {
                 continue;
             }
             dirty |= 1 << block;
             let covered = (covered >> at & 1) as u16;
-            if covered != 0 && lo > *z_hi {
+            if covered != 0 && lo > *z_hi || believed {
                 *z_lo = lo;
                 *z_hi = hi;
                 samples.ids.as_flattened_mut()[known] = id;
-                samples.ties[block] &= !(1 << lane);
+                if !mutant::is(Mutant::StaleTies) {
+                    samples.ties[block] &= !(1 << lane);
+                }
             } else {
                 let (lanes, covered) = (1 << lane, covered << lane);
                 let open = Open { triangle: id, block, lanes, covered };
