@@ -39,7 +39,8 @@ fn write_blocks<S: Simd>(
     let left = (window.x0() - ids.tiles[0].x0()) as usize;
     let right = left + window.width() as usize;
     let columns = (window.width() as usize).div_ceil(side);
-    let mut answer = BlockRow { ids: [Lanes([0; 16]); MOST_PER_SIDE], t: [Lanes([0.0; 16]); MOST_PER_SIDE] };
+    let mut answer =
+        BlockRow { ids: [Lanes([0; 16]); MOST_PER_SIDE], t: [Lanes([0.0; 16]); MOST_PER_SIDE] };
     for row in 0..(window.height() as usize).div_ceil(side) {
         for column in 0..columns {
             let block = row * per_side + column;
@@ -106,7 +107,8 @@ fn block_answer<S: Simd>(
     let y_lanes = [y_lanes, y_lanes + 2.0];
     // Most blocks show one triangle and nothing else.
     let winner = tile.blocks.winner[block].0[0] & !SAME_DEPTH;
-    if left == 0xffff && winners.simd_eq(u32x16::splat(simd, winner)).to_bitmask() & 0xffff == left {
+    if left == 0xffff && winners.simd_eq(u32x16::splat(simd, winner)).to_bitmask() & 0xffff == left
+    {
         let drawn = &tile.drawn[winner as usize];
         let [a, b, c] = drawn.plane;
         let across = x_lanes * a;
