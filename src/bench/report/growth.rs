@@ -124,15 +124,13 @@ pub fn reading(growths: &[Growth]) -> Vec<String> {
             let [first, last] = growth.ends()?;
             let [time, log] = [growth.of_time(), growth.of_logarithm()];
             Some(format!(
-                "{}: {:.1} -> {:.1} ns per {} from {} to {} triangles, {time:.2} times; log n grows \
-                 {log:.2} times: {}",
+                "{}: {:.1} -> {:.1} ns per {}, {time:.2} times (log n: {log:.2}), {} -> {} triangles",
                 growth.name,
                 1e9 * first.median,
                 1e9 * last.median,
                 growth.unit.name(),
                 first.triangles,
                 last.triangles,
-                if time <= log { "time grows less" } else { "time grows more" },
             ))
         })
         .collect()
