@@ -73,6 +73,8 @@ pub(super) struct Batch {
     /// Per edge: a block whose corner value is below it is certainly outside. For z: what to add to
     /// a block's corner value to get a certain upper bound in the block.
     pub(super) reach: [[f32; GROUP]; 4],
+    /// As `Live::spans`.
+    pub(super) spans: [[f32; GROUP]; 4],
     /// Certain error of z.
     pub(super) depth_error: [f32; GROUP],
     pub(super) ids: [u32; GROUP],
@@ -84,6 +86,7 @@ impl Batch {
     pub(super) const EMPTY: Self = Self {
         rows: [[[0.0; GROUP]; 3]; 4],
         reach: [[0.0; GROUP]; 4],
+        spans: [[0.0; GROUP]; 4],
         depth_error: [0.0; GROUP],
         ids: [0; GROUP],
         live: 0,
@@ -131,6 +134,9 @@ pub(super) fn set_up<S: Simd, const CERTAIN: bool>(
     let open = plane.abs().simd_le(doubt);
     let there = (1_u32 << (live.count - first).min(GROUP)) - 1;
     batch.ids.copy_from_slice(&live.ids[first..first + GROUP]);
+    for (to, from) in batch.spans.iter_mut().zip(&live.spans) {
+        to.copy_from_slice(&from[first..first + GROUP]);
+    }
     let mut kept = there;
     let mut sign = plane;
     let doubtful = mask_bits(open) & there;
