@@ -59,6 +59,7 @@ impl Lanes {
         scene: &Scene,
         rules: &Rules,
         lights: &[PreparedLight],
+        selects_lights: bool,
         level: Level,
         precision: Precision,
     ) -> Option<Self> {
@@ -75,7 +76,7 @@ impl Lanes {
             largest_eye: largest_component(scene.camera.eye()),
             single: match precision {
                 Precision::Double => None,
-                Precision::Single => SingleFrame::of(scene, lights),
+                Precision::Single => SingleFrame::of(scene, lights, selects_lights),
             },
         })
     }
@@ -122,6 +123,7 @@ fn shade_gathered<S: Simd>(
             return done;
         }
     }
+    run.color(frame, stretch);
     if frame.directed {
         place::place(simd, frame, lanes, stretch.first, run);
     }

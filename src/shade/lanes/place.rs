@@ -72,9 +72,9 @@ pub(super) fn place<S: Simd>(
     run: &mut Run,
 ) {
     let eye = vector::splat(simd, frame.scene.camera.eye());
-    let Run { segments, weights, t_low, t_high, position, normal, doubtful, .. } = run;
+    let Run { segments, faces, weights, t_low, t_high, position, normal, doubtful, .. } = run;
     for segment in segments.iter() {
-        let face = &segment.face;
+        let face = &faces[segment.face];
         for start in (segment.start..segment.end).step_by(LANES) {
             let weights = vector::load3(simd, weights, start);
             if lanes.positional {
