@@ -74,7 +74,11 @@ fn shade_row<const E: u8, W: Watch>(
         }
         // Lights are chosen for whole runs only: for what lanes left over, all are asked.
         let mut chosen: &[bool] = &[];
-        if frame.selects_lights && done == 0 {
+        let is_untouched = || {
+            let mut pixels = visible.iter().enumerate();
+            pixels.all(|(index, seen)| seen.is_none() || done >> index & 1 == 0)
+        };
+        if frame.selects_lights && is_untouched() {
             let bounds = bounds(frame, first, y, visible, &mut positions);
             frame.cones.mark(frame.level, &bounds, &mut reaches);
             chosen = &reaches;

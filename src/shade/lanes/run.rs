@@ -23,6 +23,7 @@ const WIDTH: usize = RUN + 2 * LANES;
 pub(super) struct Segment {
     pub(super) start: usize,
     pub(super) end: usize,
+    pub(super) triangle: TriangleId,
     /// Position in the run's faces.
     pub(super) face: usize,
 }
@@ -50,11 +51,14 @@ pub(in crate::shade) struct Run {
     /// Normals of `single`.
     pub(super) mean_normal: [[f32; WIDTH]; 3],
     pub(super) segments: Vec<Segment>,
-    pub(super) faces: Vec<Face>,
-    /// Whose the last face is.
-    last: Option<(TriangleId, Facing)>,
+    pub(super) faces: [Face; RUN + 1],
+    /// Which of the faces was set last, and whose it is.
+    last: usize,
+    last_seen: Option<(TriangleId, Facing)>,
     /// The pixels of the segments, as bits.
     pub(super) live: u32,
+    /// The pixels at which nothing is visible, as bits.
+    pub(super) empty: u32,
     /// Those of them that the scalar kernel must look at.
     pub(super) doubtful: u32,
     pub(super) products: Products,
@@ -73,9 +77,11 @@ impl Run {
             normal: [[0.0; WIDTH]; 3],
             mean_normal: [[0.0; WIDTH]; 3],
             segments: Vec::with_capacity(RUN),
-            faces: Vec::with_capacity(RUN + 1),
-            last: None,
+            faces: [Face::default(); RUN + 1],
+            last: 0,
+            last_seen: None,
             live: 0,
+            empty: 0,
             doubtful: 0,
             products: Products::default(),
             single_products: SingleProducts::default(),
@@ -86,18 +92,18 @@ impl Run {
     /// Takes in the pixels that lanes know.
     pub(super) fn gather(&mut self, frame: &Frame<'_>, stretch: &Stretch<'_>) {
         self.segments.clear();
-        (self.live, self.doubtful) = (0, 0);
+        (self.live, self.empty, self.doubtful) = (0, 0, 0);
         // A run often begins with the face that the one before it ended with.
-        if self.faces.len() > 1 {
-            let last = self.faces.len() - 1;
-            self.faces.swap(0, last);
-            self.faces.truncate(1);
+        if self.last != 0 {
+            self.faces[0] = self.faces[self.last];
+            self.last = 0;
         }
         let visible = stretch.visible;
         let mut end = 0;
         while let Some(first) = visible.get(end) {
             let start = end;
             let Some(first) = first else {
+                self.empty |= 1 << start;
                 end += 1;
                 continue;
             };
@@ -106,12 +112,15 @@ impl Run {
                 seen.as_ref().is_some_and(|seen| (seen.triangle, seen.facing) == key)
             };
             end += visible[start..].iter().take_while(is_same).count();
-            if self.last != Some(key) {
-                let Some(face) = Face::of(frame, first) else { continue };
-                self.faces.push(face);
-                self.last = Some(key);
+            if self.last_seen != Some(key) {
+                // At most one per pixel and the one of the run before.
+                let next = self.last + 1;
+                if !self.faces[next].become_seen(frame, first) {
+                    continue;
+                }
+                (self.last, self.last_seen) = (next, Some(key));
             }
-            let segment = Segment { start, end, face: self.faces.len() - 1 };
+            let segment = Segment { start, end, triangle: first.triangle, face: self.last };
             self.segments.push(segment);
             self.live |= segment.pixels();
             let [w0, w1, w2] = &mut self.weights;

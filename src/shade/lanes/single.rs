@@ -9,19 +9,19 @@
 //!
 //! Error, in u = 2^-24, as lengths of difference vectors. N: 5u for the mean over |mean| ≥ ½, 4.5u
 //! for the unit vector: 15u. Way to a light: u·(|l| + 3.3|p| + |way|), by [`NEAREST`] at most 15u of
-//! its length; 1/r: 5.5u; L: 22u. V: 6u. N·L: 40u. L + V: 28u and a rounding, over |L + V| ≥ ½: with N
-//! 75u of angle. The lobe cos^n changes with the angle by 1.5√n at most for n ≥ 1; the falloff by
-//! |L − S| ≤ 22u. Attenuation: 45u relative. A power is good to 12u.
+//! its length r; r: 2.5u, 1/r: 5.5u; L, where it is made: 22u. V: 6u. N·L: 40u. Way + r·V: 28u of r, over
+//! r·|L + V| ≥ r/2: with N 75u of angle. The lobe cos^n changes with the angle by 1.5√n at most for
+//! n ≥ 1; the falloff by 22u of angle at most. Attenuation: 45u relative. A power is good to 12u.
 //!
 //! Up to [`SOFTEST`] a lobe is a power of the cosine as it is, and rounding of the cosine itself
 //! counts n times. (N·H)² is off by 14u and, where N·H = c, by 6u/c: |N|² 9u, N·(L + V) 3u/c, its
-//! square, |L + V|² 3u, the quotient; half of n times this times c^n is at most 10n·u. L·S is off by
-//! 7.5u and 3u/c: 10.5e·u. Above, cosines are 1 − c²/2 for the chord c, and neither counts; a unit H
-//! is off by 4.5u more.
+//! square, |L + V|² 3u, the quotient; half of n times this times c^n is at most 10n·u. (L·S)² is off
+//! by 7u and 6u/c, S being off by u: 6.5e·u. Above, cosines are 1 − c²/2 for the chord c, and neither
+//! counts; a unit H is off by 4.5u more.
 //!
 //! With P_j = (kd·Id + ks·Is)/(a + b·r + c·r²), the light's radiance where everything else is 1, a
-//! light is off by (119 + 33√e + 10.5e + 114√ns + 10ns)·u·P_j, without the terms in e and ns beyond
-//! [`SOFTEST`] = 200, where 10.5e ≤ 149√e and 10ns ≤ 142√ns. Phong's R = 2(N·L)N − L is off by 126u,
+//! light is off by (119 + 33√e + 6.5e + 114√ns + 10ns)·u·P_j, without the terms in e and ns beyond
+//! [`SOFTEST`] = 200, where 6.5e ≤ 92√e and 10ns ≤ 142√ns. Phong's R = 2(N·L)N − L is off by 126u,
 //! which makes 201√ns of 114√ns and 10ns. Sums are off by a few u of the radiance itself: all at
 //! most [`ERROR`]·(1 + √e + √ns)·P_j.
 
