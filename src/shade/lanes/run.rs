@@ -127,8 +127,9 @@ impl Run {
             let weights =
                 w0[start..end].iter_mut().zip(&mut w1[start..end]).zip(&mut w2[start..end]);
             let bounds = self.t_low[start..end].iter_mut().zip(&mut self.t_high[start..end]);
-            let seen = visible[start..end].iter().flatten();
+            let seen = &visible[start..end];
             for ((((w0, w1), w2), (low, high)), seen) in weights.zip(bounds).zip(seen) {
+                let Some(seen) = seen else { continue };
                 [*w0, *w1, *w2] = seen.barycentric.0;
                 (*low, *high) = (seen.t_lo, seen.t_hi);
             }
