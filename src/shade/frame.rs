@@ -93,7 +93,8 @@ impl<'a> Frame<'a> {
     /// The same frame with several pixels shaded at once where that is possible.
     pub(super) fn in_lanes(self, level: SimdLevel, precision: Precision) -> Self {
         let level = level.dispatched();
-        let lanes = Lanes::of(self.scene, self.rules, &self.lights, level, precision);
+        let selects = self.selects_lights;
+        let lanes = Lanes::of(self.scene, self.rules, &self.lights, selects, level, precision);
         Self { level, lanes, ..self }
     }
 

@@ -18,11 +18,15 @@ use super::watch::{Note, Watch};
 use super::weights::{mix_colors, weights};
 use crate::color::LinearRgb;
 use crate::pixel::{Pixel, Window};
+use crate::simd::prefetch;
 use crate::visibility::Visible;
 
 /// Shades one row of a window: `visible` and `radiance` hold its pixels.
 pub(super) type RowKernel<W> =
     fn(&Frame<'_>, Window, u32, &[Option<Visible>], &mut [LinearRgb], &mut W);
+
+/// Cache lines of what is visible in a run.
+const RUN_LINES: usize = RUN * size_of::<Option<Visible>>() / 64;
 
 /// The kernel for a set of effects: entry n of the table is compiled for set n.
 pub(super) fn row_kernel<W: Watch>(effects: Effects) -> RowKernel<W> {
@@ -62,8 +66,12 @@ fn shade_row<const E: u8, W: Watch>(
     let mut positions = [None; RUN];
     let in_lanes = frame.lanes.as_ref().filter(|_| W::KNOWS_LANES);
     let mut run = in_lanes.map(|lanes| (lanes, Run::new(frame)));
+    let row = visible;
     let runs = visible.chunks(RUN).zip(radiance.chunks_mut(RUN));
     for (first, (visible, radiance)) in (window.x0()..).step_by(RUN).zip(runs) {
+        // The run after the next: what is visible there comes from memory.
+        let ahead = (first - window.x0()) as usize + 2 * RUN;
+        prefetch(row.get(ahead..).unwrap_or_default(), RUN_LINES);
         // Shade at once what can be, and leave the rest to the scalar kernel.
         let done = run.as_mut().map_or(0, |(lanes, run)| {
             let stretch = Stretch { first: Pixel { x: first, y }, visible };
@@ -74,7 +82,11 @@ fn shade_row<const E: u8, W: Watch>(
         }
         // Lights are chosen for whole runs only: for what lanes left over, all are asked.
         let mut chosen: &[bool] = &[];
-        if frame.selects_lights && done == 0 {
+        let is_untouched = || {
+            let mut pixels = visible.iter().enumerate();
+            pixels.all(|(index, seen)| seen.is_none() || done >> index & 1 == 0)
+        };
+        if frame.selects_lights && is_untouched() {
             let bounds = bounds(frame, first, y, visible, &mut positions);
             frame.cones.mark(frame.level, &bounds, &mut reaches);
             chosen = &reaches;

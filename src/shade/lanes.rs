@@ -49,6 +49,8 @@ pub(super) struct Lanes {
     specular: bool,
     /// max |e_k| of the eye.
     largest_eye: f64,
+    /// Whether the background is nothing to be noted.
+    background_is_finite: bool,
     /// The lights in f32, where f32 is allowed and takes the scene's numbers.
     single: Option<SingleFrame>,
 }
@@ -59,6 +61,7 @@ impl Lanes {
         scene: &Scene,
         rules: &Rules,
         lights: &[PreparedLight],
+        selects_lights: bool,
         level: Level,
         precision: Precision,
     ) -> Option<Self> {
@@ -73,9 +76,10 @@ impl Lanes {
             positional: lights.iter().any(|light| matches!(light.origin, Origin::Position(_))),
             specular: lights.iter().any(|light| light.specular != [0.0; 3]),
             largest_eye: largest_component(scene.camera.eye()),
+            background_is_finite: scene.background.iter().all(|value| value.is_finite()),
             single: match precision {
                 Precision::Double => None,
-                Precision::Single => SingleFrame::of(scene, lights),
+                Precision::Single => SingleFrame::of(scene, lights, selects_lights),
             },
         })
     }
@@ -88,7 +92,8 @@ pub(super) struct Stretch<'a> {
     pub(super) visible: &'a [Option<Visible>],
 }
 
-/// Shades those pixels of a run that the lanes know, and says by bits which.
+/// Shades those pixels of a run that the lanes know, and those at which nothing is visible, and says
+/// by bits which.
 pub(super) fn shade_run(
     frame: &Frame<'_>,
     lanes: &Lanes,
@@ -98,10 +103,17 @@ pub(super) fn shade_run(
     radiance: &mut [LinearRgb],
 ) -> u32 {
     run.gather(frame, stretch);
-    if run.live == 0 {
-        return 0;
+    let mut done = 0;
+    if lanes.background_is_finite && run.empty != 0 {
+        let empty = radiance.iter_mut().zip(stretch.visible).filter(|(_, seen)| seen.is_none());
+        empty.for_each(|(out, _)| *out = frame.scene.background);
+        done = run.empty;
     }
-    dispatch!(lanes.level, simd => shade_gathered(simd, frame, lanes, stretch, run, asker, radiance))
+    if run.live == 0 {
+        return done;
+    }
+    done | dispatch!(lanes.level, simd =>
+        shade_gathered(simd, frame, lanes, stretch, run, asker, radiance))
 }
 
 #[inline(always)]
@@ -122,6 +134,7 @@ fn shade_gathered<S: Simd>(
             return done;
         }
     }
+    run.color(frame, stretch);
     if frame.directed {
         place::place(simd, frame, lanes, stretch.first, run);
     }

@@ -3,6 +3,7 @@
 //! A segment's lanes are written up to eight at once; what stands beyond its end is overwritten by
 //! the next segment or never looked at.
 
+use super::face::Plane;
 use super::run::Run;
 use super::vector::{self, Mask, Reals, Vectors};
 use super::{LANES, Lanes};
@@ -72,9 +73,10 @@ pub(super) fn place<S: Simd>(
     run: &mut Run,
 ) {
     let eye = vector::splat(simd, frame.scene.camera.eye());
-    let Run { segments, weights, t_low, t_high, position, normal, doubtful, .. } = run;
+    let Run { segments, faces, weights, t_low, t_high, position, normal, doubtful, .. } = run;
     for segment in segments.iter() {
-        let face = &segment.face;
+        let face = &faces[segment.face];
+        let plane = Plane::of(frame.scene, segment.triangle);
         for start in (segment.start..segment.end).step_by(LANES) {
             let weights = vector::load3(simd, weights, start);
             if lanes.positional {
@@ -86,11 +88,11 @@ pub(super) fn place<S: Simd>(
                 let reach = vector::largest_component(ray);
                 let ray_error = (t * reach + Reals::splat(simd, lanes.largest_eye)) * f64::EPSILON
                     + half * reach;
-                let is_by_ray = ray_error.simd_lt(face.corner_error);
+                let is_by_ray = ray_error.simd_lt(plane.corner_error);
                 for k in 0..3 {
                     let by_ray = eye[k] + t * ray[k];
-                    let along = weights[1] * face.edges[0][k] + weights[2] * face.edges[1][k];
-                    let by_corners = Reals::splat(simd, face.origin[k]) + along;
+                    let along = weights[1] * plane.edges[0][k] + weights[2] * plane.edges[1][k];
+                    let by_corners = Reals::splat(simd, plane.origin[k]) + along;
                     let point = is_by_ray.select(by_ray, by_corners);
                     vector::store(point, &mut position[k], start);
                 }

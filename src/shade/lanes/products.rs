@@ -11,38 +11,37 @@ use fearless_simd::prelude::*;
 
 /// Colours of one light as a surface returns them.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Uniform {
+struct Uniform {
     ambient: LinearRgb,
-    pub(super) diffuse: LinearRgb,
-    pub(super) specular: LinearRgb,
+    diffuse: LinearRgb,
+    specular: LinearRgb,
     /// kd, which hemisphere lights mix their two colours by.
     coefficient: LinearRgb,
-    /// `diffuse` and `specular` in f32.
-    pub(super) single: [[f32; 3]; 2],
 }
+
+/// Coefficients pixel by pixel, channel by channel: emission, ambient, diffuse, specular; the exponent
+/// last. Empty until a run needs them.
+pub(super) type Varying = [[f64; RUN]];
 
 /// The coefficients of a run.
 #[derive(Default)]
 pub(super) struct Products {
     /// The material that `uniform` is of.
     material: Option<u32>,
-    pub(super) is_uniform: bool,
-    pub(super) emission: LinearRgb,
-    /// Sum over the lights.
-    pub(super) ambient: LinearRgb,
-    pub(super) exponent: f64,
-    pub(super) uniform: Vec<Uniform>,
-    /// Coefficients pixel by pixel, channel by channel: emission, ambient, diffuse, specular; the
-    /// exponent last. Empty until a run needs them.
+    is_uniform: bool,
+    emission: LinearRgb,
+    exponent: f64,
+    uniform: Vec<Uniform>,
+    /// [`Varying`].
     pub(super) varying: Vec<[f64; RUN]>,
 }
 
 /// Where the coefficients of [`Coefficients`] stand in [`Products::varying`].
-pub(super) const EMISSION: usize = 0;
+const EMISSION: usize = 0;
 pub(super) const AMBIENT: usize = 3;
 pub(super) const DIFFUSE: usize = 6;
 pub(super) const SPECULAR: usize = 9;
-pub(super) const EXPONENT: usize = 12;
+const EXPONENT: usize = 12;
 
 /// The directed colours of a light in eight lanes.
 #[derive(Clone, Copy)]
@@ -66,17 +65,12 @@ impl Products {
         let of = Coefficients::of(&frame.scene.materials[material as usize], frame.rules);
         (self.emission, self.exponent) = (of.emission, of.exponent);
         self.uniform.clear();
-        self.uniform.extend(frame.lights.iter().map(|light| {
-            Uniform {
-                ambient: product(of.ambient, light.ambient.unwrap_or([0.0; 3])),
-                diffuse: product(of.diffuse, light.diffuse),
-                specular: product(of.specular, light.specular),
-                coefficient: of.diffuse,
-                single: [product(of.diffuse, light.diffuse), product(of.specular, light.specular)]
-                    .map(|color| color.map(|c| c as f32)),
-            }
+        self.uniform.extend(frame.lights.iter().map(|light| Uniform {
+            ambient: product(of.ambient, light.ambient.unwrap_or([0.0; 3])),
+            diffuse: product(of.diffuse, light.diffuse),
+            specular: product(of.specular, light.specular),
+            coefficient: of.diffuse,
         }));
-        self.ambient = [0, 1, 2].map(|k| self.uniform.iter().map(|light| light.ambient[k]).sum());
     }
 
     /// Takes the coefficients that were [`set`](Self::set) pixel by pixel.
@@ -109,8 +103,8 @@ impl Products {
 /// The coefficients of eight pixels of a run.
 #[derive(Clone, Copy)]
 pub(super) struct LaneProducts<'a> {
-    pub(super) of: &'a Products,
-    pub(super) start: usize,
+    of: &'a Products,
+    start: usize,
 }
 
 impl LaneProducts<'_> {

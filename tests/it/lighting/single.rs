@@ -5,14 +5,14 @@ use super::neutrality;
 use super::stage::{V3, bits};
 use crate::called_for::scenes;
 use std::path::Path;
-use truecast::pixel::Resolution;
+use truecast::pixel::{Resolution, Window};
 use truecast::raster::rasterize;
 use truecast::scene::light::Light;
 use truecast::scene::switches::{DIALECTS, SWITCHES, SwitchValue, Switches};
 use truecast::scene::{Overrides, Scene};
 use truecast::shade::{self, Effects, Precision, ShadeOptions, single_error};
 use truecast::simd::SimdLevel;
-use truecast::visibility::{Counting, VisibilityBuffer};
+use truecast::visibility::{Counting, LevelCounts, VisibilityBuffer};
 
 fn look(scene: &Scene) -> VisibilityBuffer {
     rasterize(scene, scene.camera.resolution().window(), Counting::Nearest, &|| ())
@@ -147,6 +147,68 @@ fn f32_knows_no_far_away() {
         }
     }
     share_of_error("sixteen times as large", &large, &look(&large));
+}
+
+// Both forms of a lobe, of a falloff and of a rim, and the exponents at which they change.
+#[test]
+fn f32_is_within_the_error_for_soft_and_sharp_lights() {
+    let (_, scene) = scenes::scenes(331, 187).swap_remove(6);
+    let buffer = look(&scene);
+    let mut largest = 0.0_f64;
+    for (ns, exponent, cutoff_deg) in [
+        (0.0, 0.0, 30.0),
+        (1.0, 1.0, 179.0),
+        (2.5, 200.0, 100.0),
+        (200.0, 201.0, 91.0),
+        (201.0, 1e4, 60.0),
+        (1e5, 2.0, 8.5),
+        (60.0, 20.0, 7.5),
+        (30.0, 0.0, 0.5),
+    ] {
+        let mut scene = scene.clone();
+        scene.materials.iter_mut().for_each(|material| material.ns = ns);
+        for light in &mut scene.lights {
+            if let Light::Spot(light) = light {
+                (light.exponent, light.cutoff_deg) = (exponent, cutoff_deg);
+            }
+        }
+        let name = format!("ns {ns}, exponent {exponent}, cutoff {cutoff_deg}");
+        largest = largest.max(share_of_error(&name, &scene, &buffer));
+    }
+    assert!(largest > 1e-3, "f32 was at work: {largest}");
+}
+
+// A pixel's bits are its own: whoever renders a part of the frame renders the same picture.
+#[test]
+fn f32_of_a_pixel_does_not_depend_on_its_neighbours() {
+    let mut all = scenes::scenes(83, 47);
+    all.extend(neutrality::scenes());
+    for (name, mut scene) in all {
+        // Neighbouring triangles wear different materials.
+        let count = scene.materials.len() as u32;
+        let mut others = scene.materials.clone();
+        others.iter_mut().for_each(|other| other.kd = other.kd.map(|c| 0.3 * c + 0.1));
+        scene.materials.extend(others);
+        let odd = scene.triangle_materials.iter_mut().skip(1).step_by(2);
+        odd.for_each(|material| *material += count);
+        let buffer = look(&scene);
+        let options =
+            ShadeOptions { precision: Precision::Single, ..ShadeOptions::new(Effects::of(&scene)) };
+        let whole = shaded(&scene, &buffer, options);
+        let size = scene.camera.resolution();
+        for x0 in [1, 2, 7] {
+            let window = Window::new(size, x0, 1, size.width() - 1, size.height()).unwrap();
+            let part = VisibilityBuffer {
+                window,
+                visible: window.pixels().map(|pixel| buffer.at(pixel).copied()).collect(),
+                cover: None,
+                levels: LevelCounts::default(),
+            };
+            let part = shaded(&scene, &part, options);
+            let same: Vec<V3> = window.pixels().map(|p| whole[buffer.window.index(p)]).collect();
+            assert!(bits(&part) == bits(&same), "{name} from column {x0} on");
+        }
+    }
 }
 
 // What f32 cannot hold goes the way of f64.

@@ -2,14 +2,15 @@
 //! which pixels are left to f64.
 
 use super::frame::SingleFrame;
-use super::light::{Point, add_light};
+use super::light::{Point, reflect};
 use super::normals::mix_normals;
+use super::products::add;
 use super::vector::{self, Mask, Reals, Vectors};
-use super::{LANES, SMALLEST_MEAN, SQUARED_DISTANCES, T_WIDTH};
+use super::{LANES, NEAREST, SMALLEST_MEAN, SQUARED_DISTANCES, T_WIDTH};
 use crate::color::LinearRgb;
 use crate::pixel::Pixel;
-use crate::shade::effects::Effects;
 use crate::shade::frame::{Frame, RowAsker, is_hidden};
+use crate::shade::lanes::face::Face;
 use crate::shade::lanes::run::Run;
 use crate::shade::lanes::vector::{Reals as Doubles, load};
 use crate::shade::lanes::{Stretch, place};
@@ -18,14 +19,6 @@ use fearless_simd::prelude::*;
 
 /// Chunks of a run.
 const CHUNKS: usize = RUN / LANES;
-
-/// Sixteen points before any light.
-#[derive(Clone, Copy)]
-struct Place<S: Simd> {
-    position: Vectors<S>,
-    to_eye: Vectors<S>,
-    doubtful: Mask<S>,
-}
 
 /// Shades the pixels of a gathered run in f32, and says by bits which of them are done.
 #[inline(always)]
@@ -39,48 +32,65 @@ pub(in crate::shade::lanes) fn shade<S: Simd>(
     radiance: &mut [LinearRgb],
 ) -> u32 {
     mix_normals(simd, run);
-    let mut places = [place(simd, frame, stretch.first, run, 0); CHUNKS];
-    for (chunk, place_of) in places.iter_mut().enumerate().skip(1) {
+    let mut points = [point(simd, frame, stretch.first, run, 0); CHUNKS];
+    for (chunk, point_of) in points.iter_mut().enumerate().skip(1) {
         if run.live >> (chunk * LANES) != 0 {
-            *place_of = place(simd, frame, stretch.first, run, chunk * LANES);
+            *point_of = point(simd, frame, stretch.first, run, chunk * LANES);
         }
     }
-    if frame.selects_lights {
-        let bounds = bounds(simd, frame, run, &places);
+    if single.selects_lights {
+        let bounds = bounds(simd, frame, &points);
         frame.cones.mark_with(simd, &bounds, &mut run.reaches);
     }
-    let mut done = 0;
-    for (chunk, place) in places.iter().enumerate() {
-        let start = chunk * LANES;
-        let live = run.live >> start & 0xffff;
-        if live == 0 {
-            continue;
+    // One material after the other, so that no pixel's bits depend on what its neighbours wear.
+    let (mut left, mut done) = (run.live, 0);
+    while let Some((pixels, face)) = run.wearing_one(left) {
+        left &= !pixels;
+        let Face { material, is_textured, .. } = *face;
+        if is_textured {
+            run.color_pixels(frame, stretch, pixels);
         }
-        let (rgb, certain) = shade_chunk(simd, frame, single, stretch, run, asker, place, start);
-        let rgb = [rgb[0].to_array(), rgb[1].to_array(), rgb[2].to_array()];
-        let out = &mut radiance[start..];
-        match out.first_chunk_mut::<LANES>() {
-            Some(out) if certain == 0xffff => {
-                for (lane, out) in out.iter_mut().enumerate() {
-                    *out = [rgb[0][lane].into(), rgb[1][lane].into(), rgb[2][lane].into()];
-                }
+        run.single_products.wear(frame, material);
+        for (chunk, point) in points.iter().enumerate() {
+            let start = chunk * LANES;
+            let wanted = pixels >> start & 0xffff;
+            if wanted == 0 {
+                continue;
             }
-            _ => {
-                for (lane, out) in out.iter_mut().take(LANES).enumerate() {
-                    if certain >> lane & 1 != 0 {
-                        *out = [rgb[0][lane].into(), rgb[1][lane].into(), rgb[2][lane].into()];
-                    }
-                }
-            }
+            let live = point.live & Mask::from_bitmask(simd, u64::from(wanted));
+            let point = Point { live, ..*point };
+            let (rgb, certain) =
+                shade_chunk(simd, frame, single, stretch, run, is_textured, asker, &point, start);
+            write(rgb, certain, &mut radiance[start..]);
+            done |= certain << start;
         }
-        done |= certain << start;
     }
     done
 }
 
-/// Where the points are as the eye sees them, and in which lanes that is not known well enough.
+/// Writes the lanes in `certain`.
 #[inline(always)]
-fn place<S: Simd>(simd: S, frame: &Frame<'_>, first: Pixel, run: &Run, start: usize) -> Place<S> {
+fn write<S: Simd>(rgb: Vectors<S>, certain: u32, out: &mut [LinearRgb]) {
+    let rgb = [rgb[0].to_array(), rgb[1].to_array(), rgb[2].to_array()];
+    match out.first_chunk_mut::<LANES>() {
+        Some(out) if certain == 0xffff => {
+            for (lane, out) in out.iter_mut().enumerate() {
+                *out = [rgb[0][lane].into(), rgb[1][lane].into(), rgb[2][lane].into()];
+            }
+        }
+        _ => {
+            for (lane, out) in out.iter_mut().take(LANES).enumerate() {
+                if certain >> lane & 1 != 0 {
+                    *out = [rgb[0][lane].into(), rgb[1][lane].into(), rgb[2][lane].into()];
+                }
+            }
+        }
+    }
+}
+
+/// Points as the eye sees them, without those that are not known well enough.
+#[inline(always)]
+fn point<S: Simd>(simd: S, frame: &Frame<'_>, first: Pixel, run: &Run, start: usize) -> Point<S> {
     let (t0, known0) = parameters(simd, run, start);
     let (t1, known1) = parameters(simd, run, start + LANES / 2);
     let t = t0.narrow(t1);
@@ -94,10 +104,25 @@ fn place<S: Simd>(simd: S, frame: &Frame<'_>, first: Pixel, run: &Run, start: us
     } else {
         vector::scaled(ray, Reals::splat(simd, -1.0) / squared.sqrt())
     };
-    let known = Mask::from_bitmask(simd, known0 | known1 << (LANES / 2))
-        & squared.simd_ge(SQUARED_DISTANCES[0])
-        & squared.simd_le(SQUARED_DISTANCES[1]);
-    Place { position: vector::scaled(ray, t), to_eye, doubtful: !known }
+    let mean = [
+        Reals::from_slice(simd, &run.mean_normal[0][start..start + LANES]),
+        Reals::from_slice(simd, &run.mean_normal[1][start..start + LANES]),
+        Reals::from_slice(simd, &run.mean_normal[2][start..start + LANES]),
+    ];
+    let squared_mean = vector::squared_length(mean);
+    let distance = t * t * squared;
+    let live = u64::from(run.live >> start & 0xffff) & (known0 | known1 << (LANES / 2));
+    Point {
+        position: vector::scaled(ray, t),
+        nearness: distance / NEAREST,
+        to_eye,
+        normal: vector::scaled(mean, Reals::splat(simd, 1.0) / squared_mean.sqrt()),
+        live: Mask::from_bitmask(simd, live)
+            & squared.simd_ge(SQUARED_DISTANCES[0])
+            & squared.simd_le(SQUARED_DISTANCES[1])
+            & distance.simd_le(SQUARED_DISTANCES[1])
+            & squared_mean.simd_ge(SMALLEST_MEAN),
+    }
 }
 
 /// t in the middle of its interval, and in which lanes the interval is narrow enough.
@@ -111,21 +136,19 @@ fn parameters<S: Simd>(simd: S, run: &Run, start: usize) -> (Doubles<S>, u64) {
 
 /// A box around the live points, by more than the 3·2^-24 of the largest by which they are off.
 #[inline(always)]
-fn bounds<S: Simd>(simd: S, frame: &Frame<'_>, run: &Run, places: &[Place<S>; CHUNKS]) -> Bounds {
+fn bounds<S: Simd>(simd: S, frame: &Frame<'_>, points: &[Point<S>; CHUNKS]) -> Bounds {
     let mut low = vector::splat(simd, [f32::INFINITY; 3]);
     let mut high = vector::splat(simd, [f32::NEG_INFINITY; 3]);
-    for (chunk, place) in places.iter().enumerate() {
-        let live = Mask::from_bitmask(simd, u64::from(run.live >> (chunk * LANES) & 0xffff));
-        let live = live & !place.doubtful;
+    for point in points {
         for k in 0..3 {
-            low[k] = low[k].min(live.select(place.position[k], low[k]));
-            high[k] = high[k].max(live.select(place.position[k], high[k]));
+            low[k] = low[k].min(point.live.select(point.position[k], low[k]));
+            high[k] = high[k].max(point.live.select(point.position[k], high[k]));
         }
     }
     let mut bounds = Bounds::EMPTY;
     for k in 0..3 {
-        bounds.low[k] = low[k].to_array().into_iter().fold(f32::INFINITY, f32::min).into();
-        bounds.high[k] = high[k].to_array().into_iter().fold(f32::NEG_INFINITY, f32::max).into();
+        bounds.low[k] = (-largest(-low[k])).into();
+        bounds.high[k] = largest(high[k]).into();
     }
     let corners = bounds.low.into_iter().chain(bounds.high);
     let slack = corners.fold(0.0_f64, |m, c| m.max(c.abs())) * 4.0 / 16_777_216.0;
@@ -134,6 +157,15 @@ fn bounds<S: Simd>(simd: S, frame: &Frame<'_>, run: &Run, places: &[Place<S>; CH
         bounds.high[k] += eye + slack;
     }
     bounds
+}
+
+/// The largest lane.
+#[inline(always)]
+fn largest<S: Simd>(lanes: Reals<S>) -> f32 {
+    let (low, high) = lanes.split();
+    let (low, high) = low.max(high).split();
+    let [a, b, c, d] = low.max(high).to_array();
+    a.max(b).max(c.max(d))
 }
 
 /// The radiance of the pixels from `start` on, and the lanes in which it is good enough.
@@ -145,53 +177,55 @@ fn shade_chunk<S: Simd>(
     single: &SingleFrame,
     stretch: &Stretch<'_>,
     run: &Run,
+    is_textured: bool,
     asker: &RowAsker<'_>,
-    place: &Place<S>,
+    point: &Point<S>,
     start: usize,
 ) -> (Vectors<S>, u32) {
-    let colors = run.products.lanes(start);
-    let live = Mask::from_bitmask(simd, u64::from(run.live >> start & 0xffff)) & !place.doubtful;
-    let mean = [
-        Reals::from_slice(simd, &run.mean_normal[0][start..start + LANES]),
-        Reals::from_slice(simd, &run.mean_normal[1][start..start + LANES]),
-        Reals::from_slice(simd, &run.mean_normal[2][start..start + LANES]),
-    ];
-    let squared = vector::squared_length(mean);
-    let live = live & squared.simd_ge(SMALLEST_MEAN);
-    let point = Point {
-        position: place.position,
-        squared_distance: vector::squared_length(place.position),
-        to_eye: place.to_eye,
-        normal: vector::scaled(mean, Reals::splat(simd, 1.0) / squared.sqrt()),
-        exponent: colors.exponent_single(simd),
-        live,
-    };
-    let has_emission = frame.effects.has(Effects::EMISSION);
-    let mut rgb = colors.base_single(simd, frame, has_emission);
+    let products = &run.single_products;
+    let varying = if is_textured { Some(&*run.products.varying) } else { None };
+    let mut rgb = products.base(simd, varying, start);
     let mut doubtful = Mask::splat(simd, false);
-    for (position, light) in single.lights.iter().enumerate() {
-        if !light.is_directed || frame.selects_lights && !run.reaches[position] {
+    for ((light, directed), &reaches) in
+        single.lights.iter().zip(&products.directed).zip(&run.reaches)
+    {
+        if !light.is_directed || single.selects_lights && !reaches || directed.is_black() {
             continue;
         }
-        let of_light = colors.of_light_single(simd, position, light);
-        if !of_light.has_diffuse && !of_light.has_specular {
+        let mut reflected = reflect(simd, frame.rules, light, directed.exponent, point);
+        doubtful |= reflected.doubtful;
+        if reflected.open.all_false() {
             continue;
         }
-        let index = frame.lights[position].index;
-        let hidden = |asked: u64| {
-            (0..LANES).filter(|&lane| asked >> lane & 1 != 0).fold(0, |bits, lane| {
-                let pixel = Pixel { x: stretch.first.x + (start + lane) as u32, ..stretch.first };
-                let visible = stretch.visible[start + lane].as_ref();
-                let is = visible.is_some_and(|visible| is_hidden(asker, pixel, visible, index));
-                bits | u64::from(is) << lane
-            })
-        };
-        let hidden: Option<&dyn Fn(u64) -> u64> =
-            if frame.lights[position].shadows { Some(&hidden) } else { None };
-        let doubts = add_light(simd, frame.rules, light, &of_light, &point, hidden, &mut rgb);
-        doubtful |= doubts;
+        if light.shadows {
+            let asked = (reflected.open & !doubtful).to_bitmask();
+            let hidden = hidden(stretch, asker, start, light.index, asked);
+            let open = !Mask::from_bitmask(simd, hidden);
+            reflected.matte = open.select(reflected.matte, Reals::splat(simd, 0.0));
+            reflected.highlight = open.select(reflected.highlight, Reals::splat(simd, 0.0));
+        }
+        let varying = varying.map(|rows| (rows, light));
+        add(simd, directed, varying, start, &reflected, &mut rgb);
     }
     let is_finite = (rgb[0] + rgb[1] + rgb[2]).simd_lt(f32::INFINITY);
-    let certain = is_finite & live & !doubtful;
+    let certain = is_finite & point.live & !doubtful;
     (rgb, certain.to_bitmask() as u32)
+}
+
+/// From which of the pixels in `asked`, counted from `start` on, something hides a light.
+#[cold]
+#[inline(never)]
+fn hidden(
+    stretch: &Stretch<'_>,
+    asker: &RowAsker<'_>,
+    start: usize,
+    light: usize,
+    asked: u64,
+) -> u64 {
+    (0..LANES).filter(|&lane| asked >> lane & 1 != 0).fold(0, |bits, lane| {
+        let pixel = Pixel { x: stretch.first.x + (start + lane) as u32, ..stretch.first };
+        let visible = stretch.visible[start + lane].as_ref();
+        let is = visible.is_some_and(|visible| is_hidden(asker, pixel, visible, light));
+        bits | u64::from(is) << lane
+    })
 }

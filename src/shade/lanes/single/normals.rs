@@ -8,10 +8,10 @@ use fearless_simd::prelude::*;
 /// Fills in the run's normals; what stands beyond a segment's end is overwritten by the next one.
 #[inline(always)]
 pub(super) fn mix_normals<S: Simd>(simd: S, run: &mut Run) {
-    let Run { segments, weights, mean_normal, .. } = run;
+    let Run { segments, faces, weights, mean_normal, .. } = run;
     let [mean_x, mean_y, mean_z] = mean_normal;
     for segment in segments.iter() {
-        let face = &segment.face;
+        let face = &faces[segment.face];
         let sign = if face.turns { -1.0 } else { 1.0 };
         let narrowed =
             |v: [f64; 3]| [(sign * v[0]) as f32, (sign * v[1]) as f32, (sign * v[2]) as f32];
