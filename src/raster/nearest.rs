@@ -10,7 +10,7 @@ use super::octet::Lanes;
 use super::strips::Strip;
 use super::tile::{Tile, Tiling};
 use crate::mesh::TriangleId;
-use crate::pixel::Pixel;
+use crate::pixel::{Pixel, Window};
 use fearless_simd::prelude::*;
 use fearless_simd::{dispatch, f64x8, mask64x8, u32x16};
 
@@ -36,8 +36,6 @@ fn write_blocks<S: Simd>(
     t: &mut Strip<'_, f32>,
 ) {
     let (per_side, window, side) = (tiling.blocks.per_side, doubt.window, BLOCK_SIDE as usize);
-    let left = (window.x0() - ids.tiles[0].x0()) as usize;
-    let right = left + window.width() as usize;
     for row in 0..(window.height() as usize).div_ceil(side) {
         for column in 0..(window.width() as usize).div_ceil(side) {
             let block = row * per_side + column;
@@ -46,15 +44,27 @@ fn write_blocks<S: Simd>(
             if doubtful != 0 {
                 settle(tiling, doubt, block, doubtful, &block_ids, &mut block_t);
             }
-            // Copy the pixels that lie in the tile.
-            let from = left + column * side;
-            let width = side.min(right - from);
-            let rows = row * side..(row * side + side).min(window.height() as usize);
-            for (line, row) in rows.enumerate() {
-                put(&mut ids.rows[row][from..], line, &block_ids, width);
-                put(&mut t.rows[row][from..], line, &block_t, width);
-            }
+            store_block(window, [row, column], (&block_ids, ids), (&block_t, t));
         }
+    }
+}
+
+/// Copies the pixels of a block that lie in the tile.
+#[inline(always)]
+pub(super) fn store_block(
+    window: Window,
+    [row, column]: [usize; 2],
+    (block_ids, ids): (&Lanes<u32>, &mut Strip<'_, u32>),
+    (block_t, t): (&Lanes<f32>, &mut Strip<'_, f32>),
+) {
+    let side = BLOCK_SIDE as usize;
+    let left = (window.x0() - ids.tiles[0].x0()) as usize;
+    let from = left + column * side;
+    let width = side.min(left + window.width() as usize - from);
+    let rows = row * side..(row * side + side).min(window.height() as usize);
+    for (line, row) in rows.enumerate() {
+        put(&mut ids.rows[row][from..], line, block_ids, width);
+        put(&mut t.rows[row][from..], line, block_t, width);
     }
 }
 

@@ -42,8 +42,8 @@ impl DepthFormat {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthBuffer {
     format: DepthFormat,
-    near: f64,
-    far: f64,
+    pub(in crate::raster) near: f64,
+    pub(in crate::raster) far: f64,
 }
 
 impl DepthBuffer {
