@@ -93,6 +93,7 @@ mutants! {
     NearerBlocks, "nearer blocks", "a block is skipped unless a triangle is certainly nearer";
     StaleTies, "stale ties", "a tie stays when a nearer triangle covers it";
     TightCone, "tight cone", "a box that the cone of a tile only touches is missed";
+    ShortSamples, "short samples", "the last row of a tile that a triangle may cover is left out";
     // What is reported.
     ShiftedWeights, "shifted weights", "barycentric weights belong to the wrong corners";
     UnmarkedTies, "unmarked ties", "a sample on an edge is not reported as a tie";
@@ -151,8 +152,13 @@ pub(crate) fn spares_tiles() -> bool {
 }
 
 /// The mistakes of rays that walk in tiles.
-const TILES: &[Mutant] =
-    &[Mutant::BelievedRows, Mutant::NearerBlocks, Mutant::StaleTies, Mutant::TightCone];
+const TILES: &[Mutant] = &[
+    Mutant::BelievedRows,
+    Mutant::NearerBlocks,
+    Mutant::StaleTies,
+    Mutant::TightCone,
+    Mutant::ShortSamples,
+];
 
 /// The value at the sample and its two derivatives, in the order in which the tie rule asks them:
 /// as given, but for planted mistakes.

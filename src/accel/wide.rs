@@ -29,7 +29,8 @@ const MOST_GROUPS: usize = 16;
 
 /// Cache lines of a node, and of a leaf of three groups, that are asked for ahead.
 const NODE_LINES: usize = 8;
-const LEAF_LINES: usize = 14;
+const LEAF_LINES: usize = 19;
+const ID_LINES: usize = 2;
 
 /// The id of a lane without a triangle.
 pub(crate) const NO_TRIANGLE: u32 = u32::MAX;
@@ -280,6 +281,7 @@ impl WideTree {
             Linked::Node(index) => prefetch(&self.nodes[index..index + 1], NODE_LINES),
             Linked::Leaf(leaf) => {
                 prefetch(&self.vertices[9 * leaf.first..9 * (leaf.first + leaf.count)], LEAF_LINES);
+                prefetch(&self.ids[leaf.first..leaf.first + leaf.count], ID_LINES);
             }
         }
     }

@@ -38,7 +38,7 @@ pub(super) fn decide(ray: &Ray, sheared: &ShearedRay, triangle: &LeafTriangle) -
         single::Edges::Agree(sign) => {
             let edges = Edges { sign, level: Level::Single, on_edge: false };
             let vertices = candidate::vertices(triangle);
-            with_plane(ray, &vertices, &Relative::new(ray, &vertices), edges)
+            with_plane(ray, &vertices, &Relative::new(ray.eye, &vertices), edges)
         }
         single::Edges::Open => decide_in_double(ray, &candidate::vertices(triangle)),
     }
@@ -46,7 +46,7 @@ pub(super) fn decide(ray: &Ray, sheared: &ShearedRay, triangle: &LeafTriangle) -
 
 /// The decision without the f32 filter.
 fn decide_in_double(ray: &Ray, vertices: &Vertices) -> Decision {
-    let relative = Relative::new(ray, vertices);
+    let relative = Relative::new(ray.eye, vertices);
     let (w, bound) = relative.edge_functions(ray);
     let positive = w.map(|w| w > bound);
     let negative = w.map(|w| w < -bound);

@@ -28,7 +28,7 @@ const SPEED_CRUDE: f64 = 46.0 * U;
 /// Bound of the value of V over A·E², which serves for its sign too.
 const PLANE_CRUDE: f64 = 52.0 * U;
 
-/// A triangle as one ray's filter sees it; differences are rounded.
+/// A triangle as the filter of rays from one eye sees it; differences are rounded.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Relative {
     /// v_i − e.
@@ -37,7 +37,6 @@ pub(super) struct Relative {
     edges: [[f64; 3]; 3],
     largest_a: f64,
     largest_edge: f64,
-    largest_direction: f64,
 }
 
 /// A value and a bound of its error.
@@ -62,21 +61,15 @@ impl Bounded {
 
 impl Relative {
     #[inline(always)]
-    pub(super) fn new(ray: &Ray, v: &Vertices) -> Self {
+    pub(super) fn new(eye: [f64; 3], v: &Vertices) -> Self {
         let difference =
             |p: [f64; 3], q: [f64; 3]| -> [f64; 3] { std::array::from_fn(|k| p[k] - q[k]) };
-        let a = v.map(|vertex| difference(vertex, ray.eye));
+        let a = v.map(|vertex| difference(vertex, eye));
         let edges = [difference(v[2], v[1]), difference(v[0], v[2]), difference(v[1], v[0])];
         let larger = |a: f64, b: f64| if a > b { a } else { b };
         let largest_of =
             |[p, q, r]: [[f64; 3]; 3]| larger(larger(largest(p), largest(q)), largest(r));
-        Self {
-            a,
-            edges,
-            largest_a: largest_of(a),
-            largest_edge: largest_of(edges),
-            largest_direction: largest(ray.direction()),
-        }
+        Self { a, edges, largest_a: largest_of(a), largest_edge: largest_of(edges) }
     }
 
     /// W_0, W_1, W_2 and one bound for their signs.
@@ -96,7 +89,7 @@ impl Relative {
             let contracted = |i: usize| contracted(self.edges[i], d, self.a[(i + 1) % 3]);
             return ([0, 1, 2].map(contracted), 0.0);
         }
-        (values, EDGE_CRUDE * (self.largest_a * self.largest_edge * self.largest_direction))
+        (values, EDGE_CRUDE * (self.largest_a * self.largest_edge * largest(d)))
     }
 
     /// A tighter bound for the sign of one of them.
@@ -111,15 +104,38 @@ impl Relative {
 
     /// V and D with bounds for their values.
     pub(super) fn plane_and_speed(&self, ray: &Ray) -> [Bounded; 2] {
+        let plane = self.plane();
+        [plane.value, plane.speed(ray)]
+    }
+
+    /// What V and D need of the triangle and the eye.
+    pub(super) fn plane(&self) -> Plane {
         let n = cross(self.edges[1], self.edges[2]);
         let square = self.largest_edge * self.largest_edge;
-        [
-            Bounded { value: dot(self.a[0], n), error: PLANE_CRUDE * (self.largest_a * square) },
-            Bounded {
-                value: dot(ray.direction(), n),
-                error: SPEED_CRUDE * (self.largest_direction * square),
-            },
-        ]
+        let value =
+            Bounded { value: dot(self.a[0], n), error: PLANE_CRUDE * (self.largest_a * square) };
+        Plane { value, normal: n, square }
+    }
+}
+
+/// A triangle's plane as all rays from one eye see it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plane {
+    /// V.
+    pub(super) value: Bounded,
+    normal: [f64; 3],
+    /// The largest component of an edge, squared.
+    square: f64,
+}
+
+impl Plane {
+    /// D.
+    #[inline(always)]
+    pub(super) fn speed(&self, ray: &Ray) -> Bounded {
+        Bounded {
+            value: dot(ray.direction(), self.normal),
+            error: SPEED_CRUDE * (largest(ray.direction()) * self.square),
+        }
     }
 }
 

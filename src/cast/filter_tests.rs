@@ -173,7 +173,7 @@ fn no_filter_certifies_a_wrong_sign() {
             Edges::Open => {}
         }
         // f64, crude and tight, and V.
-        let relative = Relative::new(&ray, &v);
+        let relative = Relative::new(ray.eye, &v);
         let (w, bound) = relative.edge_functions(&ray);
         for i in 0..3 {
             seen[1].check(w[i], bound, signs[i], &case);

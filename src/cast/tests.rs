@@ -149,7 +149,7 @@ proptest! {
         prop_assert_eq!(exact::plane_sign(&ray, &v), sign_of(&plane));
 
         // No filter gives a wrong sign.
-        let relative = Relative::new(&ray, &v);
+        let relative = Relative::new(ray.eye, &v);
         let (estimates, bound) = relative.edge_functions(&ray);
         for i in 0..3 {
             for bound in [bound, relative.tight_edge_bound(&ray, i)] {

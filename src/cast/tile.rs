@@ -16,6 +16,7 @@ mod draw;
 mod frame;
 mod rows;
 mod settle;
+mod small;
 mod state;
 
 pub(super) use frame::{Frame, SIDE};
@@ -184,7 +185,17 @@ fn draw_leaf<S: Simd, const CERTAIN: bool>(
         rows::set_up::<S, CERTAIN>(simd, frame, lattice, live, first, samples.least_z, batch);
         if batch.live != 0 {
             samples.clear(lattice.window);
-            draw::draw::<S, CERTAIN>(simd, frame, lattice.window, batch, scratch, samples, memory);
+            draw::draw::<S, CERTAIN>(
+                simd,
+                frame,
+                lattice.window,
+                batch,
+                live,
+                first,
+                scratch,
+                samples,
+                memory,
+            );
         }
         first += crate::accel::GROUP;
     }

@@ -86,6 +86,7 @@ pub(crate) const ROWS: &[Row] = &[
     row(Mutant::NearerBlocks, CAST, "H23 long coplanar"),
     row(Mutant::StaleTies, CAST, "H22 near after a tie"),
     row(Mutant::TightCone, CAST, "H16 aimed rays"),
+    row(Mutant::ShortSamples, CAST, "H16 aimed rays"),
     // What is reported.
     row(Mutant::ShiftedWeights, ALL, "H06 topleft_upper"),
     row(Mutant::UnmarkedTies, ALL, "H06 topleft_upper"),

@@ -1,6 +1,8 @@
 //! The bounds of the tile kernels, hunted: rows of triangles that pass samples as closely as f32
 //! allows, held against exact signs and depths.
 
+mod spans;
+
 use super::cull::Live;
 use super::frame::{Frame, Lattice, SIDE};
 use super::rows::{self, Batch};
@@ -149,14 +151,16 @@ fn hold(
     }
 }
 
-/// A row at a sample as the drawing computes it, without fused operations and with them.
-fn values(batch: &Batch, row: usize, lane: usize, x: usize, y: usize) -> [f32; 2] {
+/// A row at a sample as the drawing computes it, by its block and for small triangles at once, without
+/// fused operations and with them.
+fn values(batch: &Batch, row: usize, lane: usize, x: usize, y: usize) -> [f32; 4] {
     let [a, b, c] = batch.rows[row].map(|of_lanes| of_lanes[lane]);
     let [column, line] = [x, y].map(|c| (c / BLOCK * BLOCK) as f32);
     let [across, down] = [x, y].map(|c| (c % BLOCK) as f32);
     let plain = (b * down + a * across) + (b * line + (a * column + c));
     let fused = b.mul_add(down, a * across) + b.mul_add(line, a.mul_add(column, c));
-    [plain, fused]
+    let [x, y] = [x, y].map(|c| c as f32);
+    [plain, fused, b * y + (a * x + c), b.mul_add(y, a.mul_add(x, c))]
 }
 
 #[test]

@@ -22,7 +22,8 @@
 
 use super::frame::{Frame, Lattice};
 use crate::accel::{GROUP, Leaf, NO_TRIANGLE, WIDTH, WideTree};
-use fearless_simd::{Simd, SimdBase, SimdFloat, SimdMask, f32x16, mask32x16, u32x16};
+use crate::mutant::{self, Mutant};
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, f32x16, u32x16};
 
 /// u = 2^-24.
 const U: f32 = f32::EPSILON / 2.0;
@@ -42,13 +43,19 @@ pub(super) const ROOM: usize = 16 * GROUP + WIDTH;
 pub(super) struct Live {
     /// Nine rows: x, y, z of corner 0, of corner 1, of corner 2.
     pub(super) vertices: [[f32; ROOM]; 9],
+    /// First and last column, first and last row of the tile's samples that a triangle may cover.
+    pub(super) spans: [[f32; ROOM]; 4],
     pub(super) ids: [u32; ROOM],
     pub(super) count: usize,
 }
 
 impl Live {
-    pub(super) const EMPTY: Self =
-        Self { vertices: [[0.0; ROOM]; 9], ids: [NO_TRIANGLE; ROOM], count: 0 };
+    pub(super) const EMPTY: Self = Self {
+        vertices: [[0.0; ROOM]; 9],
+        spans: [[0.0; ROOM]; 4],
+        ids: [NO_TRIANGLE; ROOM],
+        count: 0,
+    };
 }
 
 /// A tile as the cull wants it.
@@ -111,9 +118,18 @@ pub(super) fn survivors<S: Simd>(
             let from = row * leaf.count + lane;
             *values = f32x16::from_slice(simd, &rows[from..from + WIDTH]);
         }
-        let kept = if cull.culls { there & !absent(simd, cull, &vertices, reach) } else { there };
+        let (absent, spans) = if cull.culls {
+            look(simd, cull, &vertices, reach)
+        } else {
+            (0, whole_tile(simd, cull))
+        };
+        let kept = there & !absent;
         let mask = simd.from_bitmask_mask32x16(u64::from(kept));
         let to = live.count;
+        for (row, values) in spans.iter().enumerate() {
+            let to = &mut live.spans[row][to..to + WIDTH];
+            simd.compress_f32x16(*values, mask).store_slice(to);
+        }
         for (row, values) in vertices.iter().enumerate() {
             let to = &mut live.vertices[row][to..to + WIDTH];
             simd.compress_f32x16(*values, mask).store_slice(to);
@@ -124,9 +140,22 @@ pub(super) fn survivors<S: Simd>(
     }
 }
 
-/// The lanes whose triangles certainly cover no sample of the tile in front of `reach`.
+/// First and last column and row of a tile.
 #[inline(always)]
-fn absent<S: Simd>(simd: S, cull: &Cull, vertices: &[f32x16<S>; 9], reach: f32) -> u32 {
+fn whole_tile<S: Simd>(simd: S, cull: &Cull) -> [f32x16<S>; 4] {
+    let zero = f32x16::splat(simd, 0.0);
+    [zero, f32x16::splat(simd, cull.extent[0]), zero, f32x16::splat(simd, cull.extent[1])]
+}
+
+/// The lanes whose triangles certainly cover no sample of the tile in front of `reach`, and the
+/// columns and rows in which the others may cover any.
+#[inline(always)]
+fn look<S: Simd>(
+    simd: S,
+    cull: &Cull,
+    vertices: &[f32x16<S>; 9],
+    reach: f32,
+) -> (u32, [f32x16<S>; 4]) {
     // Move the vertices to the eye.
     let mut a = [[f32x16::splat(simd, 0.0); 3]; 3];
     let mut s = f32x16::splat(simd, 0.0);
@@ -160,9 +189,18 @@ fn absent<S: Simd>(simd: S, cull: &Cull, vertices: &[f32x16<S>; 9], reach: f32) 
     let linear = m.mul_add(f32x16::splat(simd, depth_norm), f32x16::splat(simd, norm));
     let margin =
         q * f32x16::splat(simd, LINEAR) * linear + f32x16::splat(simd, QUOTIENT) * (one + m);
-    let missed = is_empty(simd, x_lo - margin, x_hi + margin, cull.extent[0])
-        | is_empty(simd, y_lo - margin, y_hi + margin, cull.extent[1]);
-    (in_front & (missed | beyond) | behind).to_bitmask() as u32
+    let whole = whole_tile(simd, cull);
+    let last_row = (y_hi + margin).floor();
+    let last_row = if mutant::is(Mutant::ShortSamples) { last_row - one } else { last_row };
+    let spans = [
+        in_front.select((x_lo - margin).ceil().max(whole[0]), whole[0]),
+        in_front.select((x_hi + margin).floor().min(whole[1]), whole[1]),
+        in_front.select((y_lo - margin).ceil().max(whole[2]), whole[2]),
+        in_front.select(last_row.min(whole[3]), whole[3]),
+    ];
+    let missed = spans[0].simd_gt(spans[1]) | spans[2].simd_gt(spans[3]);
+    let absent = missed | (in_front & beyond) | behind;
+    (absent.to_bitmask() as u32, spans)
 }
 
 /// A row of the inverse camera matrix times three vectors.
@@ -183,12 +221,4 @@ fn apply<S: Simd>(simd: S, row: [f32; 3], a: &[[f32x16<S>; 3]; 3]) -> [f32x16<S>
 fn range<S: Simd>(values: [f32x16<S>; 3], inverse: &[f32x16<S>; 3]) -> [f32x16<S>; 2] {
     let (a, b, c) = (values[0] * inverse[0], values[1] * inverse[1], values[2] * inverse[2]);
     [a.min(b).min(c), a.max(b).max(c)]
-}
-
-/// Whether no sample of 0, 1, … `extent` lies in the interval.
-#[inline(always)]
-fn is_empty<S: Simd>(simd: S, lo: f32x16<S>, hi: f32x16<S>, extent: f32) -> mask32x16<S> {
-    let first = lo.ceil().max(f32x16::splat(simd, 0.0));
-    let last = hi.floor().min(f32x16::splat(simd, extent));
-    first.simd_gt(last)
 }

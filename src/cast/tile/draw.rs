@@ -4,14 +4,16 @@
 //! to a list; then each pair is drawn, 16 samples at a time. Only what f32 leaves open is branched
 //! on, and it goes to [`super::settle`]. Bounds are those of [`super::rows`].
 
+use super::cull::Live;
 use super::frame::Frame;
 use super::rows::Batch;
 use super::settle::{self, Memory, Open};
+use super::small;
 use super::state::{ACROSS, BLOCK, BLOCKS, Samples};
 use crate::accel::{GROUP, WIDTH};
 use crate::mutant::{self, Mutant};
 use crate::pixel::Window;
-use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, f32x16, u32x16};
+use fearless_simd::{Select, Simd, SimdBase, SimdFloat, SimdMask, f32x8, f32x16, u32x16};
 
 /// Steps to a block's corner, over blocks; and to a sample inside a block, over lanes: x and y.
 const CORNERS: [[f32; BLOCKS]; 2] = steps(ACROSS, BLOCK as f32);
@@ -55,21 +57,36 @@ impl Scratch {
 
 /// Draws the batch. Without `CERTAIN` what f32 says is believed, and the bounds of z are one number.
 #[inline(always)]
+#[allow(clippy::too_many_arguments, reason = "one loop over everything that a tile has")]
 pub(super) fn draw<S: Simd, const CERTAIN: bool>(
     simd: S,
     frame: &Frame<'_>,
     window: Window,
     batch: &Batch,
+    live: &Live,
+    first: usize,
     scratch: &mut Scratch,
     samples: &mut Samples,
     memory: &mut Memory<'_>,
 ) {
-    let pairs = list_pairs(simd, batch, scratch, samples);
-    if pairs == 0 {
-        return;
+    let sizes = sizes(simd, live, first);
+    let small = sizes[0] & batch.live;
+    let near = sizes[1] & batch.live & !small;
+    let large = batch.live & !small & !near;
+    let mut dirty = 0;
+    if small != 0 {
+        dirty = small::draw_small::<S, CERTAIN>(
+            simd, frame, window, batch, live, first, small, samples, memory,
+        );
     }
-    let dirty =
-        draw_pairs::<S, CERTAIN>(simd, frame, window, batch, scratch, pairs, samples, memory);
+    let mut pairs = 0;
+    if near != 0 {
+        pairs = list_near(simd, batch, live, first, near, scratch, samples);
+    }
+    if large != 0 {
+        pairs = list_pairs(simd, batch, large, scratch, pairs, samples);
+    }
+    dirty |= draw_pairs::<S, CERTAIN>(simd, frame, window, batch, scratch, pairs, samples, memory);
     memory.levels.single += (pairs * WIDTH) as u64;
     let mut left = dirty;
     while left != 0 {
@@ -82,9 +99,88 @@ pub(super) fn draw<S: Simd, const CERTAIN: bool>(
     }
 }
 
-/// Lists the pairs of a triangle and a block in which it may show.
+/// The lanes whose triangles may cover at most 2 × 2 samples, and those that touch at most 2 × 2
+/// blocks.
 #[inline(always)]
-fn list_pairs<S: Simd>(simd: S, batch: &Batch, scratch: &mut Scratch, samples: &Samples) -> usize {
+fn sizes<S: Simd>(simd: S, live: &Live, first: usize) -> [u32; 2] {
+    let one = f32x8::splat(simd, 1.0);
+    let per_block = f32x8::splat(simd, 1.0 / BLOCK as f32);
+    let mut small = u32::MAX;
+    let mut near = u32::MAX;
+    for axis in 0..2 {
+        let from = f32x8::from_slice(simd, &live.spans[2 * axis][first..first + GROUP]);
+        let to = f32x8::from_slice(simd, &live.spans[2 * axis + 1][first..first + GROUP]);
+        small &= (to - from).simd_le(one).to_bitmask() as u32;
+        let blocks = (to * per_block).floor() - (from * per_block).floor();
+        near &= blocks.simd_le(one).to_bitmask() as u32;
+    }
+    [small, near]
+}
+
+/// Lists the pairs of triangles that touch few blocks, block by block.
+#[inline(always)]
+fn list_near<S: Simd>(
+    simd: S,
+    batch: &Batch,
+    live: &Live,
+    first: usize,
+    lanes: u32,
+    scratch: &mut Scratch,
+    samples: &Samples,
+) -> usize {
+    let inside_x = f32x16::load_array_ref(simd, &INSIDE[0]);
+    let inside_y = f32x16::load_array_ref(simd, &INSIDE[1]);
+    let mut count = 0;
+    let mut left = lanes;
+    while left != 0 {
+        let lane = left.trailing_zeros() as usize;
+        left &= left - 1;
+        for i in 0..4 {
+            let a = f32x16::splat(simd, batch.rows[i][0][lane]);
+            let b = f32x16::splat(simd, batch.rows[i][1][lane]);
+            b.mul_add(inside_y, a * inside_x).store_array(&mut scratch.inside[lane][i]);
+        }
+        let mut blocks = [0; 4];
+        for (i, block) in blocks.iter_mut().enumerate() {
+            *block = live.spans[i][first + lane] as u32 as usize / BLOCK;
+        }
+        let [left, right, top, bottom] = blocks;
+        for row in top..=bottom {
+            for column in left..=right {
+                let block = row * ACROSS + column;
+                let (x, y) = ((column * BLOCK) as f32, (row * BLOCK) as f32);
+                let mut shows = true;
+                for i in 0..4 {
+                    let [a, b, c] = batch.rows[i];
+                    let corner = b[lane] * y + (a[lane] * x + c[lane]);
+                    scratch.corners[lane][i][block] = corner;
+                    let reach = batch.reach[i][lane];
+                    shows &= match i {
+                        3 if mutant::is(Mutant::NearerBlocks) => {
+                            corner - reach > samples.block_z[block]
+                        }
+                        3 => corner + reach >= samples.block_z[block],
+                        _ => corner >= reach,
+                    };
+                }
+                scratch.pairs[count] = (lane * BLOCKS + block) as u32;
+                count += usize::from(shows);
+            }
+        }
+    }
+    count
+}
+
+/// Lists the pairs of a triangle and a block in which it may show, after the first `count`.
+#[inline(always)]
+fn list_pairs<S: Simd>(
+    simd: S,
+    batch: &Batch,
+    lanes: u32,
+    scratch: &mut Scratch,
+    count: usize,
+    samples: &Samples,
+) -> usize {
     let inside_x = f32x16::load_array_ref(simd, &INSIDE[0]);
     let inside_y = f32x16::load_array_ref(simd, &INSIDE[1]);
     let across = f32x16::from_slice(simd, &CORNERS[0][..WIDTH]);
@@ -96,8 +192,8 @@ fn list_pairs<S: Simd>(simd: S, batch: &Batch, scratch: &mut Scratch, samples: &
         depths[q] = f32x16::from_slice(simd, &samples.block_z[of_q]);
     }
     let numbers = u32x16::load_array_ref(simd, &NUMBERS);
-    let mut count = 0;
-    let mut left = batch.live;
+    let mut count = count;
+    let mut left = lanes;
     while left != 0 {
         let lane = left.trailing_zeros() as usize;
         left &= left - 1;

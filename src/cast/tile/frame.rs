@@ -83,7 +83,7 @@ impl<'a> Frame<'a> {
     pub(in crate::cast) fn sign_of_plane(&self, id: TriangleId, vertices: &Vertices) -> i8 {
         // V depends on the eye alone: any ray will do.
         let ray = self.view.ray(Pixel { x: 0, y: 0 });
-        let [plane, _] = Relative::new(&ray, vertices).plane_and_speed(&ray);
+        let [plane, _] = Relative::new(ray.eye, vertices).plane_and_speed(&ray);
         plane.sign().unwrap_or_else(|| self.plane_sign(id, vertices))
     }
 

@@ -8,12 +8,16 @@ use super::state::{self, NOTHING, Samples};
 use crate::accel::LeafTriangle;
 use crate::cast::candidate::{self, Candidate};
 use crate::cast::coverage;
+use crate::cast::filter::{Plane, Relative};
 use crate::cast::memo::SamePlane;
 use crate::cast::ray::Ray;
 use crate::cast::single::ShearedRay;
 use crate::mesh::TriangleId;
 use crate::pixel::Window;
 use crate::visibility::{Level, LevelCounts};
+
+/// Largest width of an interval of t, relative to its lower end, whose middle is good enough.
+const T_WIDTH: f64 = super::T_WIDTH as f64;
 
 /// What a thread keeps between its decisions.
 pub(in crate::cast) struct Memory<'a> {
@@ -43,6 +47,7 @@ pub(super) fn settle(
 ) {
     let Open { triangle, block, lanes, covered } = open;
     let mut left = lanes & samples.inside[block];
+    let mut planes = Planes { eye: frame.view.eye(), known: [None; 2] };
     samples.tied |= 1 << block;
     while left != 0 {
         let lane = left.trailing_zeros() as usize;
@@ -65,17 +70,48 @@ pub(super) fn settle(
             left &= !alike;
             continue;
         }
-        left &= left - 1;
         let place = [block, lane];
-        if covered >> lane & 1 != 0 && order_in_double(frame, window, samples, place, triangle) {
-            samples.double[block] |= 1 << lane;
-            memory.levels.double += 1;
-            continue;
+        if covered >> lane & 1 != 0 && nearest != NOTHING {
+            if order_in_double(frame, window, samples, place, triangle, &mut planes) {
+                left &= left - 1;
+                samples.double[block] |= 1 << lane;
+                memory.levels.double += 1;
+                continue;
+            }
+            let [own, others] = [triangle, nearest].map(TriangleId::new);
+            let [a, b] = [own, others].map(|id| frame.mesh.triangle(id));
+            if candidate::in_one_axis_plane(&a, &b) {
+                memory.same_plane.remember(own, others);
+                continue;
+            }
         }
+        left &= left - 1;
         match decide(frame, window, samples, memory, place, triangle) {
             Level::Single => {}
             Level::Double => samples.double[block] |= 1 << lane,
             Level::Exact => samples.exact[block] |= 1 << lane,
+        }
+    }
+}
+
+/// The planes of the two triangles in question, computed once for a block.
+struct Planes {
+    eye: [f64; 3],
+    /// By id: the triangle's own, and that of its last rival.
+    known: [Option<(u32, Plane)>; 2],
+}
+
+impl Planes {
+    #[inline(always)]
+    fn of(&mut self, frame: &Frame<'_>, place: usize, id: u32) -> Plane {
+        match self.known[place] {
+            Some((known, plane)) if known == id => plane,
+            _ => {
+                let vertices = frame.mesh.triangle(TriangleId::new(id)).map(|v| v.map(f64::from));
+                let plane = Relative::new(self.eye, &vertices).plane();
+                self.known[place] = Some((id, plane));
+                plane
+            }
         }
     }
 }
@@ -88,16 +124,12 @@ fn order_in_double(
     samples: &mut Samples,
     [block, lane]: [usize; 2],
     triangle: u32,
+    planes: &mut Planes,
 ) -> bool {
     let nearest = samples.ids[block][lane];
-    if nearest == NOTHING {
-        return false;
-    }
     let ray = frame.view.ray(state::pixel(window, block, lane));
-    let [own, others] = [triangle, nearest].map(|id| {
-        let vertices = frame.mesh.triangle(TriangleId::new(id)).map(|v| v.map(f64::from));
-        candidate::plane_interval(&ray, &vertices)
-    });
+    let own = candidate::plane_interval(&ray, &planes.of(frame, 0, triangle));
+    let others = candidate::plane_interval(&ray, &planes.of(frame, 1, nearest));
     let (Some(own), Some(others)) = (own, others) else { return false };
     match candidate::separated(own, others) {
         None => return false,
@@ -121,13 +153,19 @@ pub(super) fn refine_t(
     block: usize,
     lanes: u16,
 ) {
+    let mut planes = Planes { eye: frame.view.eye(), known: [None; 2] };
     for lane in (0..16).filter(|lane| lanes >> lane & 1 != 0) {
+        let id = samples.ids[block][lane];
         let ray = frame.view.ray(state::pixel(window, block, lane));
-        let sheared = ShearedRay::new(&ray);
-        if let Some(mut found) = covering(frame, &ray, &sheared, samples.ids[block][lane]).0 {
-            let [lo, hi] = found.narrow(&ray).t;
-            samples.t[block][lane] = frame.view.camera_t(lo + (hi - lo) * 0.5) as f32;
-        }
+        let crude = candidate::plane_interval(&ray, &planes.of(frame, 0, id));
+        let [lo, hi] = match crude.filter(|[lo, hi]| hi - lo <= lo * T_WIDTH) {
+            Some(bounds) => bounds,
+            None => match covering(frame, &ray, &ShearedRay::new(&ray), id).0 {
+                Some(mut found) => found.narrow(&ray).t,
+                None => continue,
+            },
+        };
+        samples.t[block][lane] = frame.view.camera_t(lo + (hi - lo) * 0.5) as f32;
     }
 }
 
