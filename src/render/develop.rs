@@ -45,9 +45,7 @@ pub(super) fn develop_described(
     description: String,
 ) -> Film {
     let is_asked = |group: &PlaneGroup| match group {
-        PlaneGroup::TextureCoordinates => {
-            !scene.mesh.uvs.is_empty() || groups.iter().count() == 1
-        }
+        PlaneGroup::TextureCoordinates => !scene.mesh.uvs.is_empty() || groups.iter().count() == 1,
         PlaneGroup::Cover => buffer.cover.is_some(),
         _ => true,
     };

@@ -182,6 +182,18 @@ fn the_workload_is_what_was_asked_for() {
     assert_eq!(status, 0, "{stderr}");
     let report: Value = serde_json::from_str(&stdout).unwrap();
     let scenes = report["scenes"].as_array().unwrap();
+    for scene in scenes {
+        let rows = scene["rows"].as_array().unwrap().iter();
+        let names = rows.map(|row| (row["name"].as_str().unwrap(), row["exact"] == true));
+        let expected = [
+            ("raster", true),
+            ("raster, surfaces", true),
+            ("raster, watertight", false),
+            ("raster, double", false),
+            ("raster, fast", false),
+        ];
+        assert_eq!(names.collect::<Vec<_>>(), expected);
+    }
     let found: Vec<_> = scenes.iter().map(|scene| scene["simd"].as_str().unwrap()).collect();
     assert_eq!(found, names);
     for (option, word) in [("--work", "shades"), ("--preset", "slowest"), ("--simd", "avx")] {

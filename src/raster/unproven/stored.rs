@@ -41,11 +41,7 @@ impl StoredDepth {
 
     /// The higher, the nearer: minus what is stored, 0 to −1 or to minus all steps, which f32 holds.
     #[inline(always)]
-    pub(in crate::raster) fn rank<S: Simd>(
-        &self,
-        simd: S,
-        inverse_depth: f32x16<S>,
-    ) -> f32x16<S> {
+    pub(in crate::raster) fn rank<S: Simd>(&self, simd: S, inverse_depth: f32x16<S>) -> f32x16<S> {
         let (upper, lower) = inverse_depth.widen();
         self.half(simd, upper).narrow(self.half(simd, lower))
     }
@@ -60,5 +56,49 @@ impl StoredDepth {
             steps => (depth * steps + ROUNDING) - ROUNDING,
         };
         zero - stored
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simd::SimdLevel;
+    use fearless_simd::dispatch;
+
+    /// Every lane holds what `DepthBuffer::stored` says, at every instruction set; only where that lies
+    /// within 2^-20 of half a step may it be the neighbour.
+    #[test]
+    fn lanes_hold_what_a_depth_buffer_stores() {
+        let (near, far, ray_parameter, z_per_t) = (0.1, 1000.0, 3.0, 0.7);
+        for format in [DepthFormat::D16, DepthFormat::D24, DepthFormat::D32] {
+            let Some(buffer) = DepthBuffer::new(format, near, far) else { panic!() };
+            let stored = StoredDepth::new(Kernel::Stored(buffer, z_per_t), ray_parameter);
+            for first in 0..40 {
+                let z: [f64; 16] =
+                    std::array::from_fn(|lane| 0.05 * 1.017_f64.powi(16 * first + lane as i32));
+                let inverse = z.map(|z| (ray_parameter * z_per_t / z) as f32);
+                for level in SimdLevel::available() {
+                    let mut ranks = [0.0_f32; 16];
+                    dispatch!(level.dispatched(), simd => {
+                        let lanes = f32x16::from_slice(simd, &inverse);
+                        stored.rank(simd, lanes).store_slice(&mut ranks);
+                    });
+                    for (rank, inverse) in ranks.iter().zip(inverse) {
+                        let z = ray_parameter * z_per_t / f64::from(inverse);
+                        let expected = buffer.stored(z);
+                        let depth = (far / (far - near) * (1.0 - near / z)).clamp(0.0, 1.0);
+                        let unrounded =
+                            if stored.steps > 0.0 { depth * stored.steps } else { depth };
+                        let is_half = (unrounded.fract() - 0.5).abs() < 1.0 / (1 << 20) as f64;
+                        let error = (f64::from(-rank) - expected).abs();
+                        let step = match format {
+                            DepthFormat::D32 => f64::from(f32::EPSILON) / 2.0,
+                            _ => f64::from(u8::from(is_half)),
+                        };
+                        assert!(error <= step, "{format:?} at {z}: {rank} for {expected}");
+                    }
+                }
+            }
+        }
     }
 }

@@ -48,8 +48,8 @@ fn blocks<S: Simd>(
             let (upper, lower) = inverse_depths(simd, tiling, tile, block);
             let over = f64x8::splat(simd, tiling.frame.ray_parameter);
             let values = (over / upper).narrow(over / lower);
-            let nothing = u32x16::from_slice(simd, &block_ids.0)
-                .simd_eq(u32x16::splat(simd, u32::MAX));
+            let nothing =
+                u32x16::from_slice(simd, &block_ids.0).simd_eq(u32x16::splat(simd, u32::MAX));
             let values = nothing.select(f32x16::splat(simd, f32::INFINITY), values);
             values.store_slice(&mut block_t.0);
             store_block(window, [row, column], (&block_ids, ids), (&block_t, t));

@@ -9,9 +9,7 @@ use crate::pixel::{Pixel, Window};
 use crate::raster::bounds::Rectangle;
 use crate::raster::strips::Strip;
 use crate::raster::tile_lists::Listed;
-use crate::visibility::{
-    Counting, Cover, Facing, Level, LevelCounts, VisibilityTile, Visible,
-};
+use crate::visibility::{Counting, Cover, Facing, Level, LevelCounts, VisibilityTile, Visible};
 
 /// What is compared: interpolated depths as they are, or as a depth buffer stores them.
 pub(super) struct DepthTest {
