@@ -15,6 +15,7 @@ mod arithmetic;
 mod bins;
 mod blocks;
 mod bounds;
+mod counts;
 mod coverage;
 mod doubt;
 mod draw;
@@ -53,6 +54,7 @@ use image_plane::ImagePlane;
 use strips::{for_each_strip, strips};
 use tile::{Tile, Tiling};
 
+pub use counts::{RasterCounts, count_raster};
 pub use layers::rasterize_layers;
 pub use stability::{STANDARD_HALF_WIDTH, stability, stability_in_tiles};
 pub use unproven::{Unproven, rasterize_unproven, rasterize_unproven_into};

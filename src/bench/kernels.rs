@@ -219,6 +219,12 @@ impl Kernels {
         variants
     }
 
+    /// Every tree, by the word for its preset.
+    pub fn trees_by_preset(&self) -> impl Iterator<Item = (&'static str, &Accelerator)> {
+        let casters = self.casters.iter();
+        casters.filter_map(|(preset, answerer)| Some((preset_word(*preset), answerer.tree()?)))
+    }
+
     /// Figures of every tree over a mesh of `triangles`.
     pub fn trees(&self, triangles: usize) -> Vec<TreeFigures> {
         let figures = |(preset, answerer): &(BuildPreset, Answerer)| match answerer {

@@ -78,6 +78,11 @@ impl Tile {
         }
     }
 
+    /// How many triangles the tile drawn last was listed for, hard ones left out.
+    pub(super) fn listed(&self) -> u64 {
+        self.order.sorted().len() as u64
+    }
+
     /// Draws a tile, and hands back the stage that settled its doubts.
     pub(super) fn draw<'a>(&mut self, tiling: &'a Tiling<'a>, window: Window) -> Doubt<'a> {
         let mut doubt = Doubt::new(tiling.plane, &tiling.frame, tiling.mesh, window);
