@@ -121,15 +121,29 @@ fn hard_scenes_are_wrong_where_they_must_be() {
     let right = exact(&shared);
     assert!(right.ids.iter().all(|&id| id == 0));
     let (raster, rays) = (by_raster(&shared, &right), by_rays(&shared, &right));
-    eprintln!("{raster:?} {rays:?}");
-    assert!(raster[0] > 20);
-    // Two sheets that are two of f32's ulps apart: f64 tells them, f32 does not.
+    assert!(raster[..2].iter().chain(&rays[..2]).all(|&wrong| wrong > 20), "{raster:?} {rays:?}");
+    // Two sheets that are two of f32's ulps apart: f64 tells them, f32 from end to end does not.
     let near = ahead(&[slanted(2.0_f32.powi(-20)), slanted(0.0)]);
     let right = exact(&near);
     assert!(right.ids.iter().all(|&id| id == 1));
     let (raster, rays) = (by_raster(&near, &right), by_rays(&near, &right));
-    eprintln!("{raster:?} {rays:?}");
     assert_eq!((raster[0], rays[0]), (0, 0));
+    assert!(raster[1] > 20 && rays[1] > 20, "{raster:?} {rays:?}");
+    // The same from so far away that they are 2^-30 of their depth apart: to f32 they are one, and
+    // whichever comes first is wrong in one of both orders.
+    let mut fast = [0; 2];
+    for (gaps, id) in [([2.0_f32.powi(-20), 0.0], 1), ([0.0, 2.0_f32.powi(-20)], 0)] {
+        let (eye, target) = ([0.3, 0.2, -1000.0], [0.1, 0.05, 8.0]);
+        let frame = Resolution::new(40, 33).unwrap();
+        let camera = PinholeCamera::look_at(frame, eye, target, [0.1, 1.0, 0.0], 1.5).unwrap();
+        let scene = Scene::from_triangles(camera, &gaps.map(slanted));
+        let right = exact(&scene);
+        assert!(right.ids.iter().all(|&found| found == id));
+        let (raster, rays) = (by_raster(&scene, &right), by_rays(&scene, &right));
+        assert_eq!((raster[0], rays[0]), (0, 0));
+        fast = [fast[0] + raster[2], fast[1] + rays[2]];
+    }
+    assert!(fast.iter().all(|&wrong| wrong > 20), "{fast:?}");
 }
 
 /// Edge-on and zero-area triangles are never visible, at any level.
