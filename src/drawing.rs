@@ -4,6 +4,7 @@
 //! Lengths are page units, x to the right, y downwards; one unit is one pixel at scale 1. No axes,
 //! no data: what a drawing means is decided by whoever makes the marks.
 
+pub(crate) mod axis;
 pub mod glyphs;
 mod picture;
 mod svg;
@@ -111,5 +112,12 @@ impl Drawing {
     /// Adds a line of text.
     pub fn text(&mut self, at: Point, anchor: Anchor, ink: Ink, text: impl Into<String>) {
         self.marks.push(Mark::Text { at, anchor, ink, text: text.into() });
+    }
+
+    /// Adds a line of text from its left end on, cut where the page ends.
+    pub fn text_cut(&mut self, at: Point, ink: Ink, text: &str) {
+        let room = ((f64::from(self.width) - at[0]) / f64::from(glyphs::WIDTH)) as usize;
+        let text: String = text.chars().take(room).collect();
+        self.text(at, Anchor::Start, ink, text);
     }
 }

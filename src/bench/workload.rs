@@ -92,6 +92,15 @@ pub enum Unit {
 }
 
 impl Unit {
+    /// Its name, one of them.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Triangles => "triangle",
+            Self::Rays => "ray",
+            Self::Pixels => "pixel",
+        }
+    }
+
     /// The unit of its rate.
     pub const fn rate(self) -> &'static str {
         match self {

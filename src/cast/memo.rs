@@ -48,11 +48,6 @@ impl<'a> SamePlane<'a> {
         known
     }
 
-    /// Whether this tile or another knew it.
-    pub(super) fn has(&mut self, a: TriangleId, b: TriangleId) -> bool {
-        self.knows(a, b) || self.learns(a, b)
-    }
-
     /// Remembers that the two lie in one plane.
     pub(super) fn remember(&mut self, a: TriangleId, b: TriangleId) {
         self.keep(ordered(a, b));

@@ -2,7 +2,7 @@
 
 use super::CastOptions;
 use super::memo::{PicturePairs, SamePlane};
-use super::strips::strips;
+use super::strips::{STRIPS_AT_ONCE, strips};
 use super::tile::{self, BLOCK, Frame, Memory, NOTHING, SIDE, Samples, Work, lane_of};
 use crate::accel::Accelerator;
 use crate::pixel::Window;
@@ -45,6 +45,7 @@ pub fn cast_nearest_into(
     let counts: Vec<LevelCounts> = ids
         .into_par_iter()
         .zip(t)
+        .with_max_len(STRIPS_AT_ONCE)
         .map_init(Work::new, |work, ((strip, mut ids), (_, mut t))| {
             let mut memory =
                 Memory { same_plane: SamePlane::new(&pairs), levels: LevelCounts::default() };

@@ -8,6 +8,10 @@ use crate::pixel::Window;
 /// cutting the rows costs nothing beside casting.
 const WIDTH: u32 = 8 * SIDE as u32;
 
+/// Most strips that a thread takes at once: what the last thread still works on while the others
+/// are done is a seventeenth of a frame of 1920 x 1080 pixels at most.
+pub(super) const STRIPS_AT_ONCE: usize = 16;
+
 /// Cuts a row-major buffer of `window` into strips: each window with its rows.
 pub(super) fn strips<T>(window: Window, buffer: &mut [T]) -> Vec<(Window, Vec<&mut [T]>)> {
     let mut all = Vec::new();

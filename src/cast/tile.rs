@@ -14,6 +14,7 @@ mod cone;
 mod cull;
 mod draw;
 mod frame;
+mod list;
 mod rows;
 mod settle;
 mod small;
@@ -29,12 +30,12 @@ use crate::pixel::Window;
 use crate::simd::SimdLevel;
 use cone::Cone;
 use cull::{Cull, Live};
-use draw::Scratch;
 use fearless_simd::{
     Bytes, Level, Select, Simd, SimdBase, SimdMask, SimdNarrow, SimdWiden, dispatch, f32x16, f64x8,
     u32x16,
 };
 use frame::Lattice;
+use list::Scratch;
 use rows::Batch;
 use state::BLOCKS;
 
@@ -219,17 +220,7 @@ fn draw_leaf<S: Simd, const CERTAIN: bool, const COUNTS: bool>(
         rows::set_up::<S, CERTAIN>(simd, frame, lattice, live, first, samples.least_z, batch);
         if batch.live != 0 {
             samples.clear(lattice.window);
-            draw::draw::<S, CERTAIN>(
-                simd,
-                frame,
-                lattice.window,
-                batch,
-                live,
-                first,
-                scratch,
-                samples,
-                memory,
-            );
+            draw::draw::<S, CERTAIN>(simd, frame, lattice.window, batch, scratch, samples, memory);
         }
         first += crate::accel::GROUP;
     }

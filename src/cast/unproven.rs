@@ -12,7 +12,7 @@
 use super::memo::{PicturePairs, SamePlane};
 use super::nearest;
 use super::ray::{Ray, View};
-use super::strips::strips;
+use super::strips::{STRIPS_AT_ONCE, strips};
 use super::tile::{self, Frame, Memory, NOTHING, SIDE, Work};
 use crate::accel::{Accelerator, Pending, Slabs};
 use crate::pixel::{Pixel, Window};
@@ -89,26 +89,29 @@ pub fn cast_unproven_into(
     let pairs = PicturePairs::default();
     let ids = strips(buffer.window, &mut buffer.ids);
     let t = strips(buffer.window, &mut buffer.t);
-    ids.into_par_iter().zip(t).for_each_init(Work::new, |work, ((strip, mut ids), (_, mut t))| {
-        if unproven == Unproven::Fast {
-            let mut memory =
-                Memory { same_plane: SamePlane::new(&pairs), levels: LevelCounts::default() };
-            for window in strip.tiles(SIDE as u32) {
-                let samples = tile::cast_tile::<false>(&frame, window, simd, work, &mut memory);
-                nearest::write(window, strip, samples, &mut ids, &mut t);
-                done();
+    ids.into_par_iter().zip(t).with_max_len(STRIPS_AT_ONCE).for_each_init(
+        Work::new,
+        |work, ((strip, mut ids), (_, mut t))| {
+            if unproven == Unproven::Fast {
+                let mut memory =
+                    Memory { same_plane: SamePlane::new(&pairs), levels: LevelCounts::default() };
+                for window in strip.tiles(SIDE as u32) {
+                    let samples = tile::cast_tile::<false>(&frame, window, simd, work, &mut memory);
+                    nearest::write(window, strip, samples, &mut ids, &mut t);
+                    done();
+                }
+                return;
             }
-            return;
-        }
-        let mut pending = Pending::new(simd);
-        for (y, (ids, t)) in ids.into_iter().zip(t).enumerate() {
-            for (x, (id, t)) in ids.iter_mut().zip(t).enumerate() {
-                let pixel = Pixel { x: strip.x0() + x as u32, y: strip.y0() + y as u32 };
-                (*id, *t) = cast_ray(&frame.view, accelerator, &mut pending, pixel, unproven);
+            let mut pending = Pending::new(simd);
+            for (y, (ids, t)) in ids.into_iter().zip(t).enumerate() {
+                for (x, (id, t)) in ids.iter_mut().zip(t).enumerate() {
+                    let pixel = Pixel { x: strip.x0() + x as u32, y: strip.y0() + y as u32 };
+                    (*id, *t) = cast_ray(&frame.view, accelerator, &mut pending, pixel, unproven);
+                }
             }
-        }
-        strip.tiles(SIDE as u32).iter().for_each(|_| done());
-    });
+            strip.tiles(SIDE as u32).iter().for_each(|_| done());
+        },
+    );
     buffer.levels = LevelCounts::default();
 }
 

@@ -11,7 +11,9 @@ use std::path::{Path, PathBuf};
 use truecast::bench::baseline::{Baseline, BaselineError};
 use truecast::bench::machine::Machine;
 use truecast::bench::peers::PeerError;
-use truecast::bench::report::{to_csv, to_drawing, to_json, to_table};
+use truecast::bench::report::{
+    growth_drawing, growths, reading, to_csv, to_drawing, to_json, to_table,
+};
 use truecast::bench::{BenchError, Report, Subject, bench};
 use truecast::film::FilmError;
 use truecast::scene::{Overrides, Scene};
@@ -27,6 +29,7 @@ enum Format {
 
 pub(super) fn run(arguments: &BenchArguments, writing: &Writing) -> Result<u8, Failure> {
     let targets = targets(&arguments.output)?;
+    let growth = targets_of_growth(arguments.growth.as_deref())?;
     let options = arguments.options();
     let levels = match arguments.simd.is_empty() {
         true => vec![SimdLevel::best()],
@@ -41,6 +44,12 @@ pub(super) fn run(arguments: &BenchArguments, writing: &Writing) -> Result<u8, F
                 runs.push((scene, Subject::new(name.clone(), scene, count, simd)));
             }
         }
+    }
+    if growth.is_some()
+        && scenes.iter().all(|(scene, _)| scene.mesh.len() == scenes[0].0.mesh.len())
+    {
+        let message = "--growth: give scenes that differ in their number of triangles";
+        return Err(Failure::Input(message.to_owned()));
     }
     let machine = Machine::here();
     let baseline = arguments.baseline.as_deref().map(read_baseline).transpose()?;
@@ -85,10 +94,19 @@ pub(super) fn run(arguments: &BenchArguments, writing: &Writing) -> Result<u8, F
         };
         output::save(writing, path, text.as_bytes())?;
     }
+    let growths = growths(&report);
+    if let Some(path) = growth {
+        output::save(writing, path, growth_drawing(&growths).to_svg().as_bytes())?;
+    }
     if arguments.json {
         output::print_json(&to_json(&report));
     } else if !arguments.quiet {
-        output::print(&to_table(&report));
+        let mut text = to_table(&report);
+        if growth.is_some() {
+            text += "\ngrowth\n";
+            reading(&growths).iter().for_each(|line| text += &format!("{line}\n"));
+        }
+        output::print(&text);
     }
     Ok(if report.has_failed() { DIFFERENCE } else { OK })
 }
@@ -113,6 +131,17 @@ fn targets(paths: &[PathBuf]) -> Result<Vec<(&Path, Format)>, Failure> {
         output::check_target(path)?;
     }
     Ok(targets)
+}
+
+/// The file for the plot of growth, which is an SVG.
+fn targets_of_growth(path: Option<&Path>) -> Result<Option<&Path>, Failure> {
+    let Some(path) = path else { return Ok(None) };
+    if path.extension().is_none_or(|extension| !extension.eq_ignore_ascii_case("svg")) {
+        let message = format!("{}: the plot of --growth is an SVG; end it in .svg", path.display());
+        return Err(Failure::usage(message));
+    }
+    output::check_target(path)?;
+    Ok(Some(path))
 }
 
 fn load(arguments: &BenchArguments) -> Result<Vec<(Scene, String)>, Failure> {

@@ -4,7 +4,7 @@
 //! then rounded: the same bits in every tile and at every instruction set. Where f64's bounds do
 //! not reach f32's accuracy, the exact stage gives t.
 
-use super::blocks::{self, BLOCK_SIDE, NOTHING, SAME_DEPTH};
+use super::blocks::{self, BLOCK_SIDE, MOST_SIDE, NOTHING, SAME_DEPTH};
 use super::doubt::Doubt;
 use super::octet::Lanes;
 use super::strips::Strip;
@@ -36,69 +36,108 @@ fn write_blocks<S: Simd>(
     t: &mut Strip<'_, f32>,
 ) {
     let (per_side, window, side) = (tiling.blocks.per_side, doubt.window, BLOCK_SIDE as usize);
+    let columns = (window.width() as usize).div_ceil(side);
+    let mut answer = BlockRow::new();
     for row in 0..(window.height() as usize).div_ceil(side) {
-        for column in 0..(window.width() as usize).div_ceil(side) {
+        for column in 0..columns {
             let block = row * per_side + column;
             let first = blocks::pixel(&tiling.blocks, window, block, 0);
-            let (block_ids, mut block_t, doubtful) = block_answer(simd, tile, block, first);
+            let (ids, t) = (&mut answer.ids[column], &mut answer.t[column]);
+            let doubtful = block_answer(simd, tile, block, first, ids, t);
             if doubtful != 0 {
-                settle(tiling, doubt, block, doubtful, &block_ids, &mut block_t);
+                settle(tiling, doubt, block, doubtful, ids, t);
             }
-            store_block(window, [row, column], (&block_ids, ids), (&block_t, t));
+        }
+        answer.store(window, row, ids, t);
+    }
+}
+
+/// Most blocks in a row of a tile.
+const MOST_PER_SIDE: usize = (MOST_SIDE / BLOCK_SIDE) as usize;
+
+/// The answers of a row of blocks.
+pub(super) struct BlockRow {
+    pub(super) ids: [Lanes<u32>; MOST_PER_SIDE],
+    pub(super) t: [Lanes<f32>; MOST_PER_SIDE],
+}
+
+impl BlockRow {
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        Self { ids: [Lanes([0; 16]); MOST_PER_SIDE], t: [Lanes([0.0; 16]); MOST_PER_SIDE] }
+    }
+
+    /// Copies the pixels that lie in the tile, for a row of blocks of it.
+    #[inline(always)]
+    pub(super) fn store(
+        &self,
+        window: Window,
+        row: usize,
+        ids: &mut Strip<'_, u32>,
+        t: &mut Strip<'_, f32>,
+    ) {
+        let left = (window.x0() - ids.tiles[0].x0()) as usize;
+        let right = left + window.width() as usize;
+        let side = BLOCK_SIDE as usize;
+        let rows = row * side..(row * side + side).min(window.height() as usize);
+        for (line, row) in rows.enumerate() {
+            put(&mut ids.rows[row][left..right], line, &self.ids);
+            put(&mut t.rows[row][left..right], line, &self.t);
         }
     }
 }
 
-/// Copies the pixels of a block that lie in the tile.
+/// Copies a line of pixels from a row of blocks.
 #[inline(always)]
-pub(super) fn store_block(
-    window: Window,
-    [row, column]: [usize; 2],
-    (block_ids, ids): (&Lanes<u32>, &mut Strip<'_, u32>),
-    (block_t, t): (&Lanes<f32>, &mut Strip<'_, f32>),
-) {
-    let side = BLOCK_SIDE as usize;
-    let left = (window.x0() - ids.tiles[0].x0()) as usize;
-    let from = left + column * side;
-    let width = side.min(left + window.width() as usize - from);
-    let rows = row * side..(row * side + side).min(window.height() as usize);
-    for (line, row) in rows.enumerate() {
-        put(&mut ids.rows[row][from..], line, block_ids, width);
-        put(&mut t.rows[row][from..], line, block_t, width);
+fn put<T: Copy>(to: &mut [T], line: usize, blocks: &[Lanes<T>; MOST_PER_SIDE]) {
+    let (quads, rest) = to.as_chunks_mut::<{ BLOCK_SIDE as usize }>();
+    let done = quads.len();
+    for (quad, lanes) in quads.iter_mut().zip(blocks) {
+        *quad = lanes.0.as_chunks().0[line & 3];
+    }
+    if let Some(lanes) = blocks.get(done) {
+        let last: &[T; BLOCK_SIDE as usize] = &lanes.0.as_chunks().0[line & 3];
+        rest.iter_mut().zip(last).for_each(|(to, value)| *to = *value);
     }
 }
 
-/// Copies a line of a block, or its first pixels.
-#[inline(always)]
-fn put<T: Copy>(to: &mut [T], line: usize, lanes: &Lanes<T>, width: usize) {
-    let first = (line * BLOCK_SIDE as usize) & 12;
-    let line = [lanes.0[first], lanes.0[first + 1], lanes.0[first + 2], lanes.0[first + 3]];
-    match to.first_chunk_mut() {
-        Some(whole) if width == line.len() => *whole = line,
-        _ => to.iter_mut().zip(line).take(width).for_each(|(to, value)| *to = value),
-    }
-}
-
-/// Ids and t of a block, and the lanes whose t f64 does not know well enough.
+/// Writes ids and t of a block, and hands back the lanes whose t f64 does not know well enough.
 #[inline(always)]
 fn block_answer<S: Simd>(
     simd: S,
     tile: &Tile,
     block: usize,
     first: Pixel,
-) -> (Lanes<u32>, Lanes<f32>, u64) {
-    let mut ids = Lanes([u32::MAX; 16]);
-    let mut t = Lanes([f32::INFINITY; 16]);
+    ids: &mut Lanes<u32>,
+    t: &mut Lanes<f32>,
+) -> u64 {
     let winners = u32x16::from_slice(simd, &tile.blocks.winner[block].0);
     let winners = winners & u32x16::splat(simd, !SAME_DEPTH);
     let mut left = !winners.simd_eq(u32x16::splat(simd, NOTHING)).to_bitmask() & 0xffff;
     if left == 0 {
-        return (ids, t, 0);
+        *ids = Lanes([u32::MAX; 16]);
+        *t = Lanes([f32::INFINITY; 16]);
+        return 0;
     }
     let [x, y] = first.sample();
     let x_lanes = f64x8::from_slice(simd, &[0.0, 1.0, 2.0, 3.0, 0.0, 1.0, 2.0, 3.0]) + x;
     let y_lanes = f64x8::from_slice(simd, &[0.0, 0.0, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0]) + y;
     let y_lanes = [y_lanes, y_lanes + 2.0];
+    // Most blocks show one triangle and nothing else.
+    let winner = tile.blocks.winner[block].0[0] & !SAME_DEPTH;
+    if left == 0xffff && winners.simd_eq(u32x16::splat(simd, winner)).to_bitmask() & 0xffff == left
+    {
+        let drawn = &tile.drawn[winner as usize];
+        let [a, b, c] = drawn.plane;
+        let across = x_lanes * a;
+        let volume = f64x8::splat(simd, drawn.volume);
+        let least = f64x8::splat(simd, drawn.least_plane);
+        let under = [(across + y_lanes[0] * b) + c, (across + y_lanes[1] * b) + c];
+        let known = [under[0].simd_gt(least).to_bitmask(), under[1].simd_gt(least).to_bitmask()];
+        (volume / under[0]).narrow(volume / under[1]).store_slice(&mut t.0);
+        *ids = Lanes([drawn.id; 16]);
+        return !(known[0] & 0xff | (known[1] & 0xff) << 8) & 0xffff;
+    }
     let infinite = f64x8::splat(simd, f64::INFINITY);
     let (mut over, mut under) = ([infinite; 2], [f64x8::splat(simd, 1.0); 2]);
     let mut id_lanes = u32x16::splat(simd, u32::MAX);
@@ -124,7 +163,7 @@ fn block_answer<S: Simd>(
     }
     (over[0] / under[0]).narrow(over[1] / under[1]).store_slice(&mut t.0);
     id_lanes.store_slice(&mut ids.0);
-    (ids, t, doubtful)
+    doubtful
 }
 
 /// t of doubtful lanes.

@@ -93,6 +93,48 @@ fn the_report_has_its_fields_and_positive_times() {
     assert_eq!(serde_json::from_str::<Value>(&written).unwrap(), report);
 }
 
+#[test]
+fn growth_over_meshes_of_several_sizes_is_drawn_and_read() {
+    let folder = TempDir::new().unwrap();
+    let scene = |cells: u32| {
+        let name = format!("{cells}.toml");
+        let shape =
+            format!("shape = {{ terrain = {{ size = 8.0, height = 1.0, cells = {cells} }} }}");
+        let text = format!(
+            "version = 1\n[image]\nwidth = 32\nheight = 18\n[camera]\neye = [0, 3, 6]\ntarget = [0, 0, 0]\nup = [0, 1, 0]\n\
+             fov_y_deg = 60\n[[mesh]]\n{shape}\n[[light]]\ntype = \"directional\"\naim = [0, -1, 0]\n\
+             intensity = [1, 1, 1]\n"
+        );
+        fs::write(folder.path().join(&name), text).unwrap();
+        name
+    };
+    let [small, large] = [scene(4), scene(32)];
+    let measured = |scenes: &[&str], plot: &str| {
+        let options = ["--rounds", "2", "--size", "32x18", "--threads", "1", "--growth", plot];
+        let only = ["--work", "closest", "--preset", "medium", "--only", "cast medium"];
+        truecast(folder.path(), &[&["bench"], scenes, &options, &only].concat())
+    };
+    let (status, stdout, stderr) = measured(&[&small, &large], "growth.svg");
+    assert_eq!((status, &*stderr), (0, ""));
+    let (_, lines) = stdout.split_once("\ngrowth\n").unwrap();
+    let line = lines.lines().find(|line| line.starts_with("cast medium: ")).unwrap();
+    assert!(line.contains("ns per ray, ") && line.ends_with("32 -> 2048 triangles"), "{line}");
+    // log 2048 / log 32 = 11/5.
+    assert!(line.contains(" times (log n: 2.20), "), "{line}");
+    let svg = fs::read_to_string(folder.path().join("growth.svg")).unwrap();
+    for line in lines.lines() {
+        assert!(svg.contains(line.split(" -> ").next().unwrap()), "{line}");
+    }
+    let refused = |scenes: &[&str], plot: &str, status: i32, word: &str| {
+        let (found, stdout, stderr) = measured(scenes, plot);
+        assert_eq!((found, &*stdout), (status, ""), "{stderr}");
+        assert!(stderr.contains(word), "{stderr}");
+    };
+    refused(&[&small], "growth.svg", 3, "differ in their number of triangles");
+    refused(&[&small, &small], "growth.svg", 3, "differ in their number of triangles");
+    refused(&[&small, &large], "growth.png", 2, "end it in .svg");
+}
+
 /// Writes a baseline whose medians are those of a run times `factor`.
 fn scaled_baseline(folder: &Path, factor: f64) -> String {
     let (status, stdout, _) = bench(folder, &["--json"]);

@@ -7,7 +7,7 @@
 use crate::bench::rounds::Row;
 use crate::bench::workload::Work;
 use crate::bench::{Measured, Report};
-use crate::drawing::{Anchor, Drawing, Ink, glyphs};
+use crate::drawing::{Anchor, Drawing, Ink};
 
 const WIDTH: u16 = 960;
 
@@ -39,14 +39,14 @@ pub fn to_drawing(report: &Report) -> Drawing {
         machine.version,
         machine.cpu.as_deref().unwrap_or("an unknown processor")
     );
-    text(&mut drawing, [MARGIN, y], FAINT, &head);
+    drawing.text_cut([MARGIN, y], FAINT, &head);
     for measured in &report.scenes {
         y += 2.0 * LINE;
         scene(&mut drawing, measured, &mut y);
     }
     if y > height {
         let at = [MARGIN, height - 0.5 * LINE];
-        text(&mut drawing, at, WRONG, "the page ends here; write fewer scenes");
+        drawing.text_cut(at, WRONG, "the page ends here; write fewer scenes");
     }
     drawing
 }
@@ -67,14 +67,14 @@ fn scene(drawing: &mut Drawing, measured: &Measured, y: &mut f64) {
         subject.threads,
         subject.simd
     );
-    text(drawing, [MARGIN, *y], TEXT, &title);
+    drawing.text_cut([MARGIN, *y], TEXT, &title);
     for work in Work::ALL {
         let rows: Vec<&Row> = measured.rows.iter().filter(|row| row.work == work).collect();
         if rows.is_empty() {
             continue;
         }
         *y += LINE;
-        text(drawing, [MARGIN, *y], FAINT, work.name());
+        drawing.text_cut([MARGIN, *y], FAINT, work.name());
         let medians = rows.iter().filter_map(|row| row.times).map(|times| times.median);
         let longest = medians.fold(0.0, f64::max);
         for row in rows {
@@ -89,7 +89,7 @@ fn bar(drawing: &mut Drawing, row: &Row, longest: f64, y: f64) {
     let wrong = row.wrong_pixels.unwrap_or(0);
     let Some(times) = row.times.filter(|_| longest > 0.0) else {
         let why = if wrong > 0 { format!("no time: {wrong} wrong pixels") } else { "-".to_owned() };
-        text(drawing, [BAR_START, y], WRONG, &why);
+        drawing.text_cut([BAR_START, y], WRONG, &why);
         return;
     };
     let x = |time: f64| BAR_START + BAR_LENGTH * (time / longest).clamp(0.0, 1.25);
@@ -111,12 +111,5 @@ fn bar(drawing: &mut Drawing, row: &Row, longest: f64, y: f64) {
     if wrong > 0 {
         label += &format!(", {wrong} wrong");
     }
-    text(drawing, [end.max(high) + 8.0, y], FAINT, &label);
-}
-
-/// A text from its left end on, cut where the page ends.
-fn text(drawing: &mut Drawing, at: [f64; 2], ink: Ink, text: &str) {
-    let room = ((f64::from(WIDTH) - at[0]) / f64::from(glyphs::WIDTH)) as usize;
-    let text: String = text.chars().take(room).collect();
-    drawing.text(at, Anchor::Start, ink, text);
+    drawing.text_cut([end.max(high) + 8.0, y], FAINT, &label);
 }

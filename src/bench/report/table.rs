@@ -116,11 +116,12 @@ fn scene(text: &mut String, measured: &Measured) {
 /// What kernels do, per pixel of the frame.
 fn count(text: &mut String, measured: &Measured) {
     let pixels = measured.subject.resolution.window().len() as f64;
+    let _ = writeln!(text, "per pixel, counted on the lowest instruction set");
     for counters in &measured.counters {
         let counts = counters.counts.iter();
         let per_pixel: Vec<String> =
             counts.map(|&(what, count)| format!("{:.3} {what}", count as f64 / pixels)).collect();
-        let _ = writeln!(text, "{:<27} {} per pixel", counters.name, per_pixel.join(", "));
+        let _ = writeln!(text, "{:<27} {}", counters.name, per_pixel.join(", "));
     }
 }
 

@@ -124,6 +124,10 @@ pub(super) fn survivors<S: Simd>(
             (0, whole_tile(simd, cull))
         };
         let kept = there & !absent;
+        lane += WIDTH;
+        if kept == 0 {
+            continue;
+        }
         let mask = simd.from_bitmask_mask32x16(u64::from(kept));
         let to = live.count;
         for (row, values) in spans.iter().enumerate() {
@@ -136,7 +140,6 @@ pub(super) fn survivors<S: Simd>(
         }
         simd.compress_u32x16(of_lanes, mask).store_slice(&mut live.ids[to..to + WIDTH]);
         live.count += kept.count_ones() as usize;
-        lane += WIDTH;
     }
 }
 

@@ -22,7 +22,8 @@
 //!
 //! # The f32 rows
 //!
-//! Row i is multiplied by sgn V/m_i, m_i ≥ max(S·2^-20, 60u·s²·ω), S = |C| + 31·(|A| + |B|). A common
+//! Row i is multiplied by sgn V/m_i, m_i the power of two above max(S·2^-20, 60u·s²·ω), S = |C| +
+//! 31·(|A| + |B|). A common
 //! positive factor changes no sign, so W_i > 0 now means inside. On the tile every partial sum is at
 //! most 2^20, one rounding of f32 costs at most 2^-24·2^20 = 1/16, and: the row's own rounding 1/16;
 //! the value at a block's corner ([`super::draw`]) two products and two sums, 4/16; the step inside
@@ -41,8 +42,8 @@ use crate::accel::{GROUP, WIDTH};
 use crate::cast::exact::Vertices;
 use crate::mesh::TriangleId;
 use fearless_simd::{
-    Select, Simd, SimdBase, SimdFloat, SimdMask, SimdNarrow, SimdSplit, SimdWiden, f32x16, f64x8,
-    mask64x8,
+    Bytes, Select, Simd, SimdBase, SimdFloat, SimdMask, SimdNarrow, SimdSplit, SimdWiden, f32x16,
+    f64x8, mask64x8, u64x8,
 };
 
 /// u = 2^-53.
@@ -72,6 +73,8 @@ pub(super) struct Batch {
     /// Per edge: a block whose corner value is below it is certainly outside. For z: what to add to
     /// a block's corner value to get a certain upper bound in the block.
     pub(super) reach: [[f32; GROUP]; 4],
+    /// As `Live::spans`.
+    pub(super) spans: [[f32; GROUP]; 4],
     /// Certain error of z.
     pub(super) depth_error: [f32; GROUP],
     pub(super) ids: [u32; GROUP],
@@ -83,6 +86,7 @@ impl Batch {
     pub(super) const EMPTY: Self = Self {
         rows: [[[0.0; GROUP]; 3]; 4],
         reach: [[0.0; GROUP]; 4],
+        spans: [[0.0; GROUP]; 4],
         depth_error: [0.0; GROUP],
         ids: [0; GROUP],
         live: 0,
@@ -130,6 +134,9 @@ pub(super) fn set_up<S: Simd, const CERTAIN: bool>(
     let open = plane.abs().simd_le(doubt);
     let there = (1_u32 << (live.count - first).min(GROUP)) - 1;
     batch.ids.copy_from_slice(&live.ids[first..first + GROUP]);
+    for (to, from) in batch.spans.iter_mut().zip(&live.spans) {
+        to.copy_from_slice(&from[first..first + GROUP]);
+    }
     let mut kept = there;
     let mut sign = plane;
     let doubtful = mask_bits(open) & there;
@@ -154,7 +161,8 @@ pub(super) fn set_up<S: Simd, const CERTAIN: bool>(
         let c = cross(&a[(i + 1) % 3], &a[(i + 2) % 3]);
         let row = [dot(&c, &dx), dot(&c, &dy), dot(&c, &d)];
         let scale = if CERTAIN {
-            signed_one / (size(&row, steps) * f64x8::splat(simd, ROW_SIZE)).max(least_size)
+            let unit = (size(&row, steps) * f64x8::splat(simd, ROW_SIZE)).max(least_size);
+            reciprocal_of_next_power(simd, unit) * signed_one
         } else {
             signed_one
         };
@@ -219,6 +227,15 @@ fn open_signs(frame: &Frame<'_>, live: &Live, first: usize, lanes: u32) -> ([f64
         }
     }
     (signs, invisible)
+}
+
+/// 1/2^k for the next power of two 2^k above a number below 2^1022. A scale is a matter of the
+/// exponent; a division would take longer, and round.
+#[inline(always)]
+fn reciprocal_of_next_power<S: Simd>(simd: S, value: f64x8<S>) -> f64x8<S> {
+    // Of a biased exponent e the next power has e + 1, its reciprocal 2·1023 − (e + 1).
+    let exponent = value.bitcast::<u64x8<S>>() & u64x8::splat(simd, 0x7ff << 52);
+    (u64x8::splat(simd, (2 * 1023 - 1) << 52) - exponent).bitcast::<f64x8<S>>()
 }
 
 /// |C| + steps·(|A| + |B|).

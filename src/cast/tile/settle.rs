@@ -52,33 +52,24 @@ pub(super) fn settle(
     while left != 0 {
         let lane = left.trailing_zeros() as usize;
         let nearest = samples.ids[block][lane];
-        // Certainly covered, and known to lie in the plane of the nearest: by the ids, wherever
-        // that is the nearest.
-        if covered >> lane & 1 != 0
-            && nearest != NOTHING
-            && memory.same_plane.has(TriangleId::new(triangle), TriangleId::new(nearest))
-        {
-            let alike = left & covered & samples.lanes_of(block, nearest);
-            if triangle < nearest {
-                for (lane, id) in samples.ids[block].iter_mut().enumerate() {
-                    *id = if alike >> lane & 1 != 0 { triangle } else { *id };
-                }
-            }
-            samples.ties[block] |= alike;
-            samples.double[block] |= alike;
-            memory.levels.double += u64::from(alike.count_ones());
-            left &= !alike;
-            continue;
-        }
-        let place = [block, lane];
+        // Two that certainly cover the sample: by the ids where they are known to lie in one plane,
+        // everywhere at once; else by bounds of f64. Exact arithmetic and its memory come last.
         if covered >> lane & 1 != 0 && nearest != NOTHING {
+            let [own, others] = [triangle, nearest].map(TriangleId::new);
+            if memory.same_plane.knows(own, others) {
+                left &= !order_by_id(samples, memory, open, left & covered, nearest);
+                continue;
+            }
+            let place = [block, lane];
             if order_in_double(frame, window, samples, place, triangle, &mut planes) {
                 left &= left - 1;
                 samples.double[block] |= 1 << lane;
                 memory.levels.double += 1;
                 continue;
             }
-            let [own, others] = [triangle, nearest].map(TriangleId::new);
+            if memory.same_plane.learns(own, others) {
+                continue;
+            }
             let [a, b] = [own, others].map(|id| frame.mesh.triangle(id));
             if candidate::in_one_axis_plane(&a, &b) {
                 memory.same_plane.remember(own, others);
@@ -86,12 +77,34 @@ pub(super) fn settle(
             }
         }
         left &= left - 1;
-        match decide(frame, window, samples, memory, place, triangle) {
+        match decide(frame, window, samples, memory, [block, lane], triangle) {
             Level::Single => {}
             Level::Double => samples.double[block] |= 1 << lane,
             Level::Exact => samples.exact[block] |= 1 << lane,
         }
     }
+}
+
+/// Orders a triangle and the nearest, in whose plane it lies, at those of `lanes` where that is the
+/// nearest; these lanes.
+fn order_by_id(
+    samples: &mut Samples,
+    memory: &mut Memory<'_>,
+    open: Open,
+    lanes: u16,
+    nearest: u32,
+) -> u16 {
+    let Open { triangle, block, .. } = open;
+    let alike = lanes & samples.lanes_of(block, nearest);
+    if triangle < nearest {
+        for (lane, id) in samples.ids[block].iter_mut().enumerate() {
+            *id = if alike >> lane & 1 != 0 { triangle } else { *id };
+        }
+    }
+    samples.ties[block] |= alike;
+    samples.double[block] |= alike;
+    memory.levels.double += u64::from(alike.count_ones());
+    alike
 }
 
 /// The planes of the two triangles in question, computed once for a block.

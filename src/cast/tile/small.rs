@@ -6,7 +6,6 @@
 //! [`super::rows`]: a value here is a row at the sample itself, two products and two sums, of the
 //! eight roundings that are allowed for there.
 
-use super::cull::Live;
 use super::frame::Frame;
 use super::rows::Batch;
 use super::settle::{self, Memory, Open};
@@ -25,19 +24,17 @@ pub(super) fn draw_small<S: Simd, const CERTAIN: bool>(
     frame: &Frame<'_>,
     window: Window,
     batch: &Batch,
-    live: &Live,
-    first: usize,
     lanes: u32,
     samples: &mut Samples,
     memory: &mut Memory<'_>,
 ) -> u64 {
-    let zero = f32x8::splat(simd, 0.0);
     let one = f32x8::splat(simd, 1.0);
-    let mut spans = [zero; 4];
-    for (row, span) in spans.iter_mut().enumerate() {
-        *span = f32x8::from_slice(simd, &live.spans[row][first..first + GROUP]);
-    }
-    let [left, right, top, bottom] = spans;
+    let [left, right, top, bottom] = [
+        f32x8::load_array_ref(simd, &batch.spans[0]),
+        f32x8::load_array_ref(simd, &batch.spans[1]),
+        f32x8::load_array_ref(simd, &batch.spans[2]),
+        f32x8::load_array_ref(simd, &batch.spans[3]),
+    ];
     // A column of samples in the lower, the next in the upper half.
     let x = left.combine(left + one);
     let beside = x.simd_le(right.combine(right));

@@ -43,6 +43,9 @@ pub(in crate::cli) struct BenchArguments {
     /// rounds tell how times spread within a run, not what else ran beside all of it
     #[arg(long, value_name = "FILE.json")]
     pub(in crate::cli) baseline: Option<PathBuf>,
+    /// Plot how times per ray grow with the number of triangles, over scenes that differ in it
+    #[arg(long, value_name = "FILE.svg")]
+    pub(in crate::cli) growth: Option<PathBuf>,
     /// How often each variant is timed; all variants take turns in each round
     #[arg(long, value_name = "N", default_value_t = BenchOptions::STANDARD_ROUNDS,
           value_parser = parse_rounds)]

@@ -5,8 +5,7 @@ use crate::pixel::{Pixel, Window};
 use crate::raster::arithmetic::Kernel;
 use crate::raster::blocks::{self, BLOCK_SIDE, NOTHING, SAME_DEPTH};
 use crate::raster::image_plane::ImagePlane;
-use crate::raster::nearest::store_block;
-use crate::raster::octet::Lanes;
+use crate::raster::nearest::BlockRow;
 use crate::raster::rows::Homogeneous;
 use crate::raster::strips::Strip;
 use crate::raster::tile::{Tile, Tiling};
@@ -35,10 +34,12 @@ fn blocks<S: Simd>(
     t: &mut Strip<'_, f32>,
 ) {
     let (per_side, side) = (tiling.blocks.per_side, BLOCK_SIDE);
+    let mut answer = BlockRow::new();
     for row in 0..window.height().div_ceil(side) as usize {
         for column in 0..window.width().div_ceil(side) as usize {
             let block = row * per_side + column;
-            let (mut block_ids, mut block_t) = (Lanes([u32::MAX; 16]), Lanes([0.0; 16]));
+            let (block_ids, block_t) = (&mut answer.ids[column], &mut answer.t[column]);
+            block_ids.0 = [u32::MAX; 16];
             for lane in 0..16 {
                 let winner = tile.blocks.winner[block].0[lane] & !SAME_DEPTH;
                 if let Some(drawn) = tile.drawn.get(winner as usize) {
@@ -52,8 +53,8 @@ fn blocks<S: Simd>(
                 u32x16::from_slice(simd, &block_ids.0).simd_eq(u32x16::splat(simd, u32::MAX));
             let values = nothing.select(f32x16::splat(simd, f32::INFINITY), values);
             values.store_slice(&mut block_t.0);
-            store_block(window, [row, column], (&block_ids, ids), (&block_t, t));
         }
+        answer.store(window, row, ids, t);
     }
 }
 
