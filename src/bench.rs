@@ -8,6 +8,7 @@
 //! no mean over scenes is given, for it would weigh them by their size.
 
 pub mod baseline;
+pub mod counters;
 pub mod kernels;
 pub mod machine;
 pub mod peers;
@@ -25,9 +26,10 @@ use crate::scene::hash::content_hash;
 use crate::simd::SimdLevel;
 use crate::visibility::Counting;
 use baseline::Compared;
+use counters::{Counters, counters};
 use kernels::{Kernels, TreeFigures, light_of};
 use machine::Machine;
-use peers::{PeerError, PeerOptions, Peers};
+use peers::{PeerError, PeerOptions, Peers, ShadowRays};
 use reference::Reference;
 use rounds::{Row, take_turns};
 use std::path::PathBuf;
@@ -120,6 +122,8 @@ pub struct Measured {
     pub trees: Vec<TreeFigures>,
     /// One row per variant.
     pub rows: Vec<Row>,
+    /// What kernels do for a frame.
+    pub counters: Vec<Counters>,
     /// What was not measured though it might have been, with the reason, in words.
     pub left_out: Vec<String>,
 }
@@ -186,7 +190,10 @@ pub fn bench(
     let asked = PeerOptions {
         embree: options.embree.clone(),
         simd: options.holds_simd.then_some(subject.simd),
-        admits: &|name| options.admits(name, Work::Closest),
+        admits: &|name| {
+            let work = if name.starts_with("shadow") { Work::Any } else { Work::Closest };
+            options.admits(name, work)
+        },
     };
     let peers = Peers::new(scene, window, &asked)?;
     let kernels = Kernels::new(scene, &options.presets, subject.simd, progress);
@@ -205,14 +212,19 @@ pub fn bench(
         true => Some(kernels.exposure(scene, &both[0])),
         false => None,
     };
+    let shadows = light_of(scene)
+        .filter(|_| cfg!(feature = "embree") && wants(Work::Any))
+        .map(|light| ShadowRays::new(scene, &both[0], light));
     let mut variants = kernels.variants(scene, &both[0], exposure.as_ref());
-    variants.extend(peers.variants());
+    variants.extend(peers.variants(shadows.as_ref()));
     variants.retain(|variant| options.admits(&variant.name, variant.work));
     if variants.is_empty() {
         return Err(BenchError::NothingToMeasure { name: subject.name });
     }
     variants.sort_by_key(|variant| Work::ALL.iter().position(|&work| work == variant.work));
     let rows = take_turns(&variants, &reference, options.rounds, progress);
+    let admits = |name: &str, work| options.admits(name, work);
+    let counters = counters(&kernels, scene, window, &admits);
     Ok(Measured {
         subject,
         triangles: scene.mesh.len(),
@@ -221,6 +233,7 @@ pub fn bench(
         audited_pixels: reference.audited_pixels(),
         trees: kernels.trees(scene.mesh.len()),
         rows,
+        counters,
         left_out: peers.left_out.clone(),
     })
 }

@@ -8,6 +8,7 @@
 //! size, thread count and build preset. Only `levels` counts the work as it was done.
 
 mod candidate;
+mod counts;
 mod coverage;
 mod exact;
 mod expansion;
@@ -35,6 +36,7 @@ use crate::simd::SimdLevel;
 use crate::visibility::{
     Counting, Cover, Facing, Level, LevelCounts, VisibilityBuffer, VisibilityTile, Visible,
 };
+pub use counts::{WalkCounts, count_walk};
 pub use layers::cast_layers;
 pub use nearest::{cast_nearest, cast_nearest_into};
 pub use surfaces::surfaces;

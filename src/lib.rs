@@ -97,7 +97,8 @@
 //!
 //! # Accuracy
 //!
-//! Every answer is the exact one. f32 and f64 filters with derived bounds take nearly all decisions,
+//! Every answer is the exact one, unless another level is asked for to be compared with it
+//! ([`render::Accuracy`]; [`mod@cost`] prices them). f32 and f64 filters with derived bounds take nearly all decisions,
 //! exact arithmetic the rest; [`visibility::LevelCounts`] says how many each took. Shading is f64, in
 //! forms that do not break on grazing angles, tiny cones or huge exponents, and the same bits for
 //! any number of threads. Where shading meets a case that has no right value (a light at the surface,

@@ -11,9 +11,11 @@
 //! It does not shade, and it shares no predicate with the ray caster: only the scene, the camera's
 //! numbers and the shape of the answer.
 
+mod arithmetic;
 mod bins;
 mod blocks;
 mod bounds;
+mod counts;
 mod coverage;
 mod doubt;
 mod draw;
@@ -39,19 +41,23 @@ mod strips;
 mod tile;
 mod tile_lists;
 mod tile_rows;
+mod unproven;
 mod watertight;
 
 use crate::pixel::Window;
 use crate::scene::Scene;
 use crate::simd::SimdLevel;
 use crate::visibility::{Counting, Cover, LevelCounts, NearestBuffer, VisibilityBuffer};
+use arithmetic::Kernel;
 use blocks::MOST_SIDE;
 use image_plane::ImagePlane;
 use strips::{for_each_strip, strips};
 use tile::{Tile, Tiling};
 
+pub use counts::{RasterCounts, count_raster};
 pub use layers::rasterize_layers;
 pub use stability::{STANDARD_HALF_WIDTH, stability, stability_in_tiles};
+pub use unproven::{Unproven, rasterize_unproven, rasterize_unproven_into};
 pub use watertight::{DEPTH_ERROR, DepthBuffer, DepthFormat, SubpixelBits, rasterize_watertight};
 
 /// Side of a tile, in pixels: its z-buffer (1024 pixels of 12 bytes) fits a first-level cache.
@@ -108,7 +114,7 @@ pub fn rasterize_with(
 ) -> VisibilityBuffer {
     let side = options.tile_side.clamp(1, MOST_SIDE);
     let plane = ImagePlane::new(&scene.camera);
-    let tiling = Tiling::new(&plane, &scene.mesh, window, side, options.simd);
+    let tiling = Tiling::new(&plane, &scene.mesh, window, side, options.simd, Kernel::Certain);
     let counts = counting == Counting::All;
     let mut visible = vec![None; window.len()];
     let mut cover = vec![Cover::default(); if counts { window.len() } else { 0 }];
@@ -163,7 +169,7 @@ pub fn rasterize_nearest_into(
     let window = buffer.window;
     let side = options.tile_side.clamp(1, MOST_SIDE);
     let plane = ImagePlane::new(&scene.camera);
-    let tiling = Tiling::new(&plane, &scene.mesh, window, side, options.simd);
+    let tiling = Tiling::new(&plane, &scene.mesh, window, side, options.simd, Kernel::Certain);
     buffer.ids.resize(window.len(), u32::MAX);
     buffer.t.resize(window.len(), f32::INFINITY);
     let ids = strips(window, side, &mut buffer.ids);

@@ -56,9 +56,8 @@ pub enum VisibilityPath {
 pub struct RenderOptions {
     /// Which path.
     pub path: VisibilityPath,
-    /// How visibility is decided. [`Accuracy::Watertight`] knows only the nearest surface and shows
-    /// it as opaque. Only [`Accuracy::Exact`] exists on both paths: any other is
-    /// answered by the path that has it, whatever `path` says.
+    /// How visibility is decided. Any but [`Accuracy::Exact`] names its path, whatever `path` says,
+    /// knows only the nearest surface and shows it as opaque.
     pub accuracy: Accuracy,
     /// Which pixels; the whole frame when `None`.
     pub window: Option<Window>,

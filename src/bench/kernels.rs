@@ -10,7 +10,9 @@ use crate::accel::{Accelerator, BuildPreset};
 use crate::cast::shadow::ShadowCaster;
 use crate::cast::{CastOptions, Unproven, cast_nearest_into, cast_unproven_into, cast_with};
 use crate::pixel::{Window, for_each_row};
-use crate::raster::{RasterOptions, rasterize_nearest_into, rasterize_with};
+use crate::raster::{
+    self, RasterOptions, rasterize_nearest_into, rasterize_unproven_into, rasterize_with,
+};
 use crate::render::{
     Accuracy, Answerer, Exposure, PlaneGroups, Progress, RenderOptions, Unwatched, VisibilityPath,
     develop, expose, render,
@@ -136,7 +138,8 @@ impl Kernels {
             let name = format!("cast medium, {}", unproven.name());
             let buffer = empty(window);
             Variant::new(name, Work::Closest, window.len(), move || {
-                cast_unproven_into(scene, tree, unproven, simd, &mut buffer.borrow_mut());
+                let into = &mut buffer.borrow_mut();
+                cast_unproven_into(scene, tree, unproven, simd, into, &|| ());
                 Answer::Nearest(Rc::clone(&buffer))
             })
             .unproven()
@@ -154,7 +157,7 @@ impl Kernels {
         variants
     }
 
-    fn rasters<'a>(&self, scene: &'a Scene, window: Window) -> [Variant<'a>; 3] {
+    fn rasters<'a>(&self, scene: &'a Scene, window: Window) -> Vec<Variant<'a>> {
         let options = RasterOptions { simd: self.simd, ..RasterOptions::default() };
         let raster = |name, work, counting| {
             Variant::visibility(name, work, window.len(), move || {
@@ -166,11 +169,23 @@ impl Kernels {
             rasterize_nearest_into(scene, &mut buffer.borrow_mut(), options, &|| ());
             Answer::Nearest(Rc::clone(&buffer))
         };
-        [
+        let unproven = raster::Unproven::ALL.map(|unproven| {
+            let simd = self.simd;
+            let name = format!("raster, {}", unproven.name());
+            let buffer = empty(window);
+            Variant::new(name, Work::Raster, window.len(), move || {
+                rasterize_unproven_into(scene, unproven, simd, &mut buffer.borrow_mut());
+                Answer::Nearest(Rc::clone(&buffer))
+            })
+            .unproven()
+        });
+        let mut variants = vec![
             Variant::new("raster", Work::Raster, window.len(), nearest),
             raster("raster, surfaces", Work::Raster, Counting::Nearest),
             raster("raster, cover", Work::Cover, Counting::All),
-        ]
+        ];
+        variants.extend(unproven);
+        variants
     }
 
     fn pictures<'a>(
@@ -204,6 +219,12 @@ impl Kernels {
         variants
     }
 
+    /// Every tree, by the word for its preset.
+    pub fn trees_by_preset(&self) -> impl Iterator<Item = (&'static str, &Accelerator)> {
+        let casters = self.casters.iter();
+        casters.filter_map(|(preset, answerer)| Some((preset_word(*preset), answerer.tree()?)))
+    }
+
     /// Figures of every tree over a mesh of `triangles`.
     pub fn trees(&self, triangles: usize) -> Vec<TreeFigures> {
         let figures = |(preset, answerer): &(BuildPreset, Answerer)| match answerer {
@@ -215,7 +236,7 @@ impl Kernels {
                 bytes_per_triangle: tree.bytes() as f64 / triangles.max(1) as f64,
                 surface_area_cost: tree.surface_area_cost(),
             }),
-            Answerer::Raster | Answerer::Watertight(..) => None,
+            _ => None,
         };
         self.casters.iter().filter_map(figures).collect()
     }

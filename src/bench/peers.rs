@@ -22,8 +22,11 @@ mod obvhs;
 mod parry;
 #[cfg(any(feature = "peers", feature = "embree"))]
 mod rays;
+#[cfg_attr(not(feature = "embree"), expect(dead_code, reason = "Embree's alone"))]
+mod shadow_rays;
 
 pub use hits::Hits;
+pub use shadow_rays::ShadowRays;
 
 use super::workload::Variant;
 use crate::pixel::Window;
@@ -84,7 +87,9 @@ impl<'a> Peers<'a> {
         // Which of these is used is up to the features.
         let _ = (scene, window, options);
         #[cfg(feature = "embree")]
-        let asked = embree::NAMES.into_iter().any(options.admits);
+        let names = embree::NAMES.into_iter().chain(embree::SHADOW_NAMES);
+        #[cfg(feature = "embree")]
+        let asked = { names }.any(options.admits);
         #[cfg(feature = "embree")]
         let (embree, left_out) = match asked.then(|| embree::Scenes::new(&scene.mesh, options)) {
             None => (None, Vec::new()),
@@ -115,8 +120,10 @@ impl<'a> Peers<'a> {
         })
     }
 
-    /// Closest hits by every peer, and the builds of their structures.
-    pub fn variants(&self) -> Vec<Variant<'_>> {
+    /// Closest hits by every peer, shadow rays by those that have them, and the builds of their
+    /// structures.
+    pub fn variants<'b>(&'b self, shadows: Option<&'b ShadowRays>) -> Vec<Variant<'b>> {
+        let _ = shadows;
         #[cfg_attr(
             not(any(feature = "peers", feature = "embree")),
             expect(unused_mut, reason = "none here")
@@ -131,7 +138,7 @@ impl<'a> Peers<'a> {
         }
         #[cfg(feature = "embree")]
         if let (Some(rays), Some(embree)) = (&self.rays, &self.embree) {
-            variants.extend(embree.variants(rays));
+            variants.extend(embree.variants(rays, shadows));
         }
         variants
     }

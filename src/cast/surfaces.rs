@@ -9,8 +9,9 @@ use rayon::prelude::*;
 
 /// The surfaces of a buffer's triangles at its pixels: weights and t of the triangle's plane there,
 /// weights cut off at 0 where the sample lies outside. A triangle whose plane the ray does not meet
-/// in front of the eye is taken for nothing. Levels and ties are not known and say `Double` and no.
-pub fn surfaces(scene: &Scene, nearest: &NearestBuffer) -> VisibilityBuffer {
+/// in front of the eye is taken for nothing. Ties are not known and say no; `level` is what is said of
+/// the ids' arithmetic.
+pub fn surfaces(scene: &Scene, nearest: &NearestBuffer, level: Level) -> VisibilityBuffer {
     let view = View::new(&scene.camera);
     let window = nearest.window;
     let visible = (0..window.len()).into_par_iter().map(|index| {
@@ -32,7 +33,7 @@ pub fn surfaces(scene: &Scene, nearest: &NearestBuffer) -> VisibilityBuffer {
             is_there.then(|| Visible {
                 triangle: id,
                 facing: if plane < 0.0 { Facing::Front } else { Facing::Back },
-                level: Level::Double,
+                level,
                 tie: false,
                 barycentric: Barycentric(weights.map(|weight| weight / total)),
                 t_lo: t,

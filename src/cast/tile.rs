@@ -24,13 +24,15 @@ pub(super) use frame::{Frame, SIDE};
 pub(super) use settle::Memory;
 pub(super) use state::{BLOCK, NOTHING, Samples, lane_of};
 
+use super::counts::WalkCounts;
 use crate::accel::{Leaf, Link, Linked, WIDTH};
 use crate::pixel::Window;
 use crate::simd::SimdLevel;
 use cone::Cone;
 use cull::{Cull, Live};
 use fearless_simd::{
-    Bytes, Select, Simd, SimdBase, SimdMask, SimdNarrow, SimdWiden, dispatch, f32x16, f64x8, u32x16,
+    Bytes, Level, Select, Simd, SimdBase, SimdMask, SimdNarrow, SimdWiden, dispatch, f32x16, f64x8,
+    u32x16,
 };
 use frame::Lattice;
 use list::Scratch;
@@ -45,6 +47,7 @@ pub(super) struct Work {
     scratch: Scratch,
     /// Subtrees that wait: the bits of the lower bound of t' above, the link below.
     waiting: Vec<u64>,
+    counts: WalkCounts,
 }
 
 impl Work {
@@ -55,6 +58,7 @@ impl Work {
             batch: Batch::EMPTY,
             scratch: Scratch::EMPTY,
             waiting: Vec::new(),
+            counts: WalkCounts::default(),
         })
     }
 }
@@ -69,8 +73,29 @@ pub(super) fn cast_tile<'a, const CERTAIN: bool>(
     memory: &mut Memory<'_>,
 ) -> Option<&'a Samples> {
     work.samples.begin();
-    dispatch!(level.dispatched(), simd => walk::<_, CERTAIN>(simd, frame, window, work, memory));
+    dispatch!(level.dispatched(), simd => {
+        walk::<_, CERTAIN, false>(simd, frame, window, work, memory);
+    });
     work.samples.drawn.then_some(&work.samples)
+}
+
+/// Does what [`cast_tile`] does, and counts it.
+pub(super) fn count_tile(
+    frame: &Frame<'_>,
+    window: Window,
+    work: &mut Work,
+    memory: &mut Memory<'_>,
+) -> Option<WalkCounts> {
+    work.samples.begin();
+    work.counts = WalkCounts::default();
+    match SimdLevel::Baseline.dispatched() {
+        #[cfg(any(target_arch = "x86", target_arch = "x86_64"))]
+        Level::Sse2(simd) => walk::<_, true, true>(simd, frame, window, work, memory),
+        #[cfg(target_arch = "aarch64")]
+        Level::Neon(simd) => walk::<_, true, true>(simd, frame, window, work, memory),
+        _ => return None,
+    }
+    Some(work.counts)
 }
 
 /// Largest width of an interval of z, relative to its lower end, whose middle is good enough: 2^-18.
@@ -105,7 +130,7 @@ fn write_t<S: Simd, const CERTAIN: bool>(
 }
 
 #[inline(always)]
-fn walk<S: Simd, const CERTAIN: bool>(
+fn walk<S: Simd, const CERTAIN: bool, const COUNTS: bool>(
     simd: S,
     frame: &Frame<'_>,
     window: Window,
@@ -124,12 +149,16 @@ fn walk<S: Simd, const CERTAIN: bool>(
         match Link(next as u32).target() {
             Linked::Node(index) => {
                 let node = &frame.tree.nodes[index];
+                if COUNTS {
+                    work.counts.nodes += 1;
+                    work.counts.boxes += u64::from(node.count);
+                }
                 let (met, keys) = cone.meet(simd, node);
                 let keys = keys.bitcast::<u32x16<S>>();
                 push(simd, frame, met, keys, &node.children, work);
             }
             Linked::Leaf(leaf) => {
-                draw_leaf::<S, CERTAIN>(simd, frame, &lattice, &cull, leaf, work, memory);
+                draw_leaf::<S, CERTAIN, COUNTS>(simd, frame, &lattice, &cull, leaf, work, memory);
             }
         }
     }
@@ -169,7 +198,7 @@ fn push<S: Simd>(
 
 /// Draws the triangles of a leaf.
 #[inline(always)]
-fn draw_leaf<S: Simd, const CERTAIN: bool>(
+fn draw_leaf<S: Simd, const CERTAIN: bool, const COUNTS: bool>(
     simd: S,
     frame: &Frame<'_>,
     lattice: &Lattice,
@@ -178,9 +207,14 @@ fn draw_leaf<S: Simd, const CERTAIN: bool>(
     work: &mut Work,
     memory: &mut Memory<'_>,
 ) {
-    let Work { samples, live, batch, scratch, .. } = work;
+    let Work { samples, live, batch, scratch, counts, .. } = work;
     live.count = 0;
     cull::survivors(simd, cull, frame.tree, leaf, samples.reach, live);
+    if COUNTS {
+        counts.leaves += 1;
+        counts.leaf_triangles += leaf.count as u64;
+        counts.set_up += live.count as u64;
+    }
     let mut first = 0;
     while first < live.count {
         rows::set_up::<S, CERTAIN>(simd, frame, lattice, live, first, samples.least_z, batch);

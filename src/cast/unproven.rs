@@ -18,7 +18,7 @@ use crate::accel::{Accelerator, Pending, Slabs};
 use crate::pixel::{Pixel, Window};
 use crate::scene::Scene;
 use crate::simd::SimdLevel;
-use crate::visibility::{LevelCounts, NearestBuffer};
+use crate::visibility::{Level, LevelCounts, NearestBuffer};
 use rayon::prelude::*;
 
 /// A caster without proof.
@@ -44,16 +44,27 @@ impl Unproven {
             Self::Fast => "fast",
         }
     }
+
+    /// The arithmetic that decides nearly all samples.
+    pub const fn level(self) -> Level {
+        match self {
+            Self::Double => Level::Double,
+            Self::Watertight | Self::Fast => Level::Single,
+        }
+    }
 }
 
 /// What an unproven caster takes for the nearest triangle at every pixel of a window, with
-/// `accelerator` built over the scene's mesh. Nothing is promised of ids or t.
+/// `accelerator` built over the scene's mesh. Nothing is promised of ids or t: at samples that f32
+/// leaves in doubt they may depend on the tree, the tiles and the instruction set. `done` is called
+/// once per finished tile of 32 × 32 pixels, from any thread.
 pub fn cast_unproven(
     scene: &Scene,
     accelerator: &Accelerator,
     window: Window,
     unproven: Unproven,
     simd: SimdLevel,
+    done: &(dyn Fn() + Sync),
 ) -> NearestBuffer {
     let mut buffer = NearestBuffer {
         window,
@@ -61,7 +72,7 @@ pub fn cast_unproven(
         t: vec![f32::INFINITY; window.len()],
         levels: LevelCounts::default(),
     };
-    cast_unproven_into(scene, accelerator, unproven, simd, &mut buffer);
+    cast_unproven_into(scene, accelerator, unproven, simd, &mut buffer, done);
     buffer
 }
 
@@ -72,6 +83,7 @@ pub fn cast_unproven_into(
     unproven: Unproven,
     simd: SimdLevel,
     buffer: &mut NearestBuffer,
+    done: &(dyn Fn() + Sync),
 ) {
     let frame = Frame::new(scene, accelerator);
     let pairs = PicturePairs::default();
@@ -86,6 +98,7 @@ pub fn cast_unproven_into(
                 for window in strip.tiles(SIDE as u32) {
                     let samples = tile::cast_tile::<false>(&frame, window, simd, work, &mut memory);
                     nearest::write(window, strip, samples, &mut ids, &mut t);
+                    done();
                 }
                 return;
             }
@@ -96,6 +109,7 @@ pub fn cast_unproven_into(
                     (*id, *t) = cast_ray(&frame.view, accelerator, &mut pending, pixel, unproven);
                 }
             }
+            strip.tiles(SIDE as u32).iter().for_each(|_| done());
         },
     );
     buffer.levels = LevelCounts::default();

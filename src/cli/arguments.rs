@@ -61,17 +61,18 @@ pub(super) struct RenderArguments {
     #[arg(short, long = "output", value_name = "FILE")]
     pub(super) output: Vec<PathBuf>,
     /// Which of the two independent paths answers [default: the one that is predicted to be quicker,
-    /// which `explain` tells; the pictures are the same]
+    /// which `explain` tells; the pictures are the same. With another accuracy than exact: raster]
     #[arg(long, value_enum)]
     pub(super) path: Option<PathWord>,
-    /// How visibility is decided
+    /// How visibility is decided; only exact promises anything about ids. The others show neither
+    /// see-through surfaces nor shadows, and each path has its own
     #[arg(long, value_enum, default_value_t = AccuracyWord::Exact)]
     pub(super) accuracy: AccuracyWord,
     /// Bits of the watertight rasterizer's grid below the pixel, 0 to 12 [default: 8]
     #[arg(long, value_name = "N", value_parser = parse_subpixel_bits)]
     pub(super) subpixel_bits: Option<SubpixelBits>,
-    /// Store the watertight rasterizer's depths as a graphics processor does, in 16 or 24 bits or as
-    /// f32 (32); equal stored depths of different triangles show as ties in the plane verdict.tie
+    /// Store the watertight or the fast rasterizer's depths as a graphics processor does, in 16 or 24
+    /// bits or as f32 (32); equal stored depths of different triangles show as ties in the plane verdict.tie
     #[arg(long, value_name = "16|24|32", value_parser = parse_depth_bits)]
     pub(super) depth_bits: Option<DepthFormat>,
     /// Depth along the view axis that is stored as 0
@@ -287,13 +288,18 @@ pub(super) enum PathWord {
     Raster,
 }
 
-/// `double` and `fast` exist to be compared with `exact` and come with that comparison.
+/// `cost` tells what each saves and loses.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum AccuracyWord {
     /// Every pixel is the exact answer
     Exact,
-    /// What a graphics processor does: snapped vertices, top-left rule, f32 depth (--path raster)
+    /// f64, believed
+    Double,
+    /// No holes between neighbours: on raster what a graphics processor does (snapped vertices,
+    /// top-left rule, f32 depth), on cast the f32 test of Woop, Benthin and Wald
     Watertight,
+    /// f32, believed
+    Fast,
 }
 
 fn parse_size(text: &str) -> Result<Resolution, String> {

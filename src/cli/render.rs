@@ -13,9 +13,10 @@ use report::Report;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use truecast::accel::BuildPreset;
+use truecast::cast;
 use truecast::film::{ClipCount, Format, format_of};
 use truecast::pixel::{Resolution, Window};
-use truecast::raster::DepthBuffer;
+use truecast::raster::{self, DepthBuffer};
 use truecast::render::visible::{Listing, to_csv};
 use truecast::render::{
     Accuracy, PlaneGroup, PlaneGroups, Prediction, RenderOptions, VisibilityPath, predict,
@@ -43,6 +44,7 @@ fn run_here(arguments: &RenderArguments, writing: &Writing) -> Result<u8, Failur
     let accuracy = accuracy(arguments)?;
     let targets = targets(arguments)?;
     let planes = planes(arguments, &targets)?;
+    refuse_planes(arguments, accuracy, &planes)?;
     if let Some(list) = &arguments.visible {
         output::check_target(list)?;
     }
@@ -56,7 +58,7 @@ fn run_here(arguments: &RenderArguments, writing: &Writing) -> Result<u8, Failur
     refuse_effects(accuracy, &scene)?;
     let window = window(arguments, scene.camera.resolution())?;
     let predictions = predict(&scene, window.unwrap_or(scene.camera.resolution().window()));
-    let (path, preset) = choose(arguments, &predictions);
+    let (path, preset) = choose(arguments, accuracy, &predictions);
     let options = RenderOptions {
         path,
         preset,
@@ -122,12 +124,13 @@ fn load(arguments: &RenderArguments) -> Result<Scene, Failure> {
 /// The path that is asked for, or the quickest, and how its tree is built.
 fn choose(
     arguments: &RenderArguments,
+    accuracy: Accuracy,
     predictions: &[Prediction],
 ) -> (VisibilityPath, BuildPreset) {
-    let asked = arguments.path.map(|word| match word {
+    let asked = accuracy.path().or(arguments.path.map(|word| match word {
         PathWord::Cast => VisibilityPath::Cast,
         PathWord::Raster => VisibilityPath::Raster,
-    });
+    }));
     let ways = predictions.iter().filter(|way| asked.is_none_or(|path| way.path == path));
     // Who keeps trees means to use them more than once: building one does not count.
     let time = |way: &&Prediction| match &arguments.bvh_cache {
@@ -139,21 +142,23 @@ fn choose(
     (path, quickest.and_then(|way| way.preset).unwrap_or_default())
 }
 
-/// How visibility is decided; refuses what the path does not have.
+/// How visibility is decided; refuses options of what was not asked for.
 fn accuracy(arguments: &RenderArguments) -> Result<Accuracy, Failure> {
-    if arguments.accuracy == AccuracyWord::Exact {
-        let belongs = |option: &str, why: &str| {
-            Err(Failure::usage(format!("{option} belongs to --accuracy watertight; {why}")))
-        };
-        return match (arguments.subpixel_bits, arguments.depth_bits) {
-            (Some(_), _) => belongs("--subpixel-bits", "the exact answer snaps nothing"),
-            (_, Some(_)) => belongs("--depth-bits", "the exact answer rounds no depth"),
-            (None, None) => Ok(Accuracy::Exact),
-        };
+    let word = arguments.accuracy;
+    // Without proof the paths differ; the rasterizer's bits depend on no machine and no tree.
+    let is_cast = arguments.path == Some(PathWord::Cast);
+    let has_grid = word == AccuracyWord::Watertight && !is_cast;
+    let has_buffer = has_grid || (word == AccuracyWord::Fast && !is_cast);
+    let belongs = |option: &str, to: &str, why: &str| {
+        Err(Failure::usage(format!("{option} belongs to {to}: {why}")))
+    };
+    if arguments.subpixel_bits.is_some() && !has_grid {
+        let to = "--accuracy watertight on --path raster";
+        return belongs("--subpixel-bits", to, "nothing else snaps vertices");
     }
-    if arguments.path != Some(PathWord::Raster) {
-        let message = "--accuracy watertight exists on --path raster, not on --path cast";
-        return Err(Failure::usage(message.to_owned()));
+    if arguments.depth_bits.is_some() && !has_buffer {
+        let to = "--accuracy watertight or fast on --path raster";
+        return belongs("--depth-bits", to, "nothing else rounds depths to a depth buffer's bits");
     }
     let buffer = |format| {
         DepthBuffer::new(format, arguments.near, arguments.far).ok_or_else(|| {
@@ -163,14 +168,23 @@ fn accuracy(arguments: &RenderArguments) -> Result<Accuracy, Failure> {
             ))
         })
     };
-    Ok(Accuracy::Watertight {
-        subpixel_bits: arguments.subpixel_bits.unwrap_or_default(),
-        depth_buffer: arguments.depth_bits.map(buffer).transpose()?,
+    let depth_buffer = arguments.depth_bits.map(buffer).transpose()?;
+    let subpixel_bits = arguments.subpixel_bits.unwrap_or_default();
+    Ok(match (word, is_cast) {
+        (AccuracyWord::Exact, _) => Accuracy::Exact,
+        (AccuracyWord::Double, true) => Accuracy::Cast(cast::Unproven::Double),
+        (AccuracyWord::Watertight, true) => Accuracy::Cast(cast::Unproven::Watertight),
+        (AccuracyWord::Fast, true) => Accuracy::Cast(cast::Unproven::Fast),
+        (AccuracyWord::Double, false) => Accuracy::Raster(raster::Unproven::Double),
+        (AccuracyWord::Watertight, false) => {
+            Accuracy::Raster(raster::Unproven::Watertight { subpixel_bits, depth_buffer })
+        }
+        (AccuracyWord::Fast, false) => Accuracy::Raster(raster::Unproven::Fast { depth_buffer }),
     })
 }
 
-/// The watertight rasterizer has no order behind the nearest surface and no exact surface point: it
-/// draws nothing see-through and no shadows.
+/// Without proof there is no order behind the nearest surface and no certain surface point: nothing
+/// see-through is drawn and no shadows.
 fn refuse_effects(accuracy: Accuracy, scene: &Scene) -> Result<(), Failure> {
     if accuracy == Accuracy::Exact {
         return Ok(());
@@ -187,6 +201,24 @@ fn refuse_effects(accuracy: Accuracy, scene: &Scene) -> Result<(), Failure> {
             accuracy.name()
         ))),
     }
+}
+
+/// Refuses planes that the level cannot fill; `all` just goes without them.
+fn refuse_planes(
+    arguments: &RenderArguments,
+    accuracy: Accuracy,
+    planes: &PlaneGroups,
+) -> Result<(), Failure> {
+    let is_all = |list: &String| list.split(',').any(|name| name.trim() == "all");
+    let is_named = !arguments.aov.as_ref().is_some_and(is_all);
+    if planes.has(PlaneGroup::Cover) && is_named && !accuracy.counts_cover() {
+        return Err(Failure::usage(format!(
+            "--accuracy {} finds only the nearest triangle and counts no others for the plane \
+             `cover`: use --accuracy exact, or watertight on --path raster",
+            accuracy.name()
+        )));
+    }
+    Ok(())
 }
 
 /// The output files, each with its format, refused early when they cannot be written.

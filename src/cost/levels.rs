@@ -13,12 +13,15 @@ use crate::bench::reference::Reference;
 use crate::cast::{self, CastOptions, Unproven};
 use crate::mesh::TriangleId;
 use crate::pixel::Window;
-use crate::raster::{DepthBuffer, DepthFormat, SubpixelBits};
+use crate::raster::{
+    self, DepthBuffer, DepthFormat, RasterOptions, SubpixelBits, rasterize_nearest,
+    rasterize_unproven_into,
+};
 use crate::render::{Answerer, Progress, Unwatched, VisibilityPath, expose};
 use crate::scene::Scene;
 use crate::shade::Effects;
 use crate::simd::SimdLevel;
-use crate::visibility::{Counting, VisibilityBuffer};
+use crate::visibility::{self, Counting, LevelCounts, NearestBuffer, VisibilityBuffer};
 
 pub(super) const NAME: &str = "accuracy";
 
@@ -42,8 +45,8 @@ enum Way {
     CastUnproven(Unproven),
     /// The rasterizer, exactly.
     Raster,
-    /// The rasterizer of graphics processors.
-    RasterWatertight(SubpixelBits, Option<DepthBuffer>),
+    /// A rasterizer without proof.
+    RasterUnproven(raster::Unproven),
 }
 
 impl Way {
@@ -52,7 +55,7 @@ impl Way {
         match self {
             Self::Cast | Self::Raster => EXACT,
             Self::CastUnproven(unproven) => unproven.name(),
-            Self::RasterWatertight(..) => "watertight",
+            Self::RasterUnproven(unproven) => unproven.name(),
         }
     }
 
@@ -60,20 +63,29 @@ impl Way {
     fn baseline(&self) -> &'static str {
         match self {
             Self::Cast | Self::CastUnproven(_) => "cast exact",
-            Self::Raster | Self::RasterWatertight(..) => "raster exact",
+            Self::Raster | Self::RasterUnproven(_) => "raster exact",
         }
     }
 }
 
 /// A rasterizer of graphics processors, with so many bits below the pixel and a depth buffer of so
-/// many bits; 0 keeps its interpolated f32 depth.
+/// many bits.
 fn watertight<const SUBPIXEL: u32, const DEPTH: u32>() -> Way {
+    Way::RasterUnproven(raster::Unproven::Watertight {
+        subpixel_bits: SubpixelBits::new(SUBPIXEL).unwrap_or_default(),
+        depth_buffer: depth_buffer(DEPTH),
+    })
+}
+
+/// The f32 rasterizer with a depth buffer of so many bits.
+fn fast<const DEPTH: u32>() -> Way {
+    Way::RasterUnproven(raster::Unproven::Fast { depth_buffer: depth_buffer(DEPTH) })
+}
+
+/// A depth buffer of so many bits; 0 keeps the f32 1/w.
+fn depth_buffer(bits: u32) -> Option<DepthBuffer> {
     let (near, far) = (DepthBuffer::STANDARD_NEAR, DepthBuffer::STANDARD_FAR);
-    let format = DepthFormat::of_bits(DEPTH);
-    Way::RasterWatertight(
-        SubpixelBits::new(SUBPIXEL).unwrap_or_default(),
-        format.and_then(|format| DepthBuffer::new(format, near, far)),
-    )
+    DepthBuffer::new(DepthFormat::of_bits(bits)?, near, far)
 }
 
 /// Every level that there is.
@@ -83,11 +95,15 @@ const LEVELS: &[Level] = &[
     Level { name: "cast watertight", way: || Way::CastUnproven(Unproven::Watertight) },
     Level { name: "cast fast", way: || Way::CastUnproven(Unproven::Fast) },
     Level { name: "raster exact", way: || Way::Raster },
+    Level { name: "raster double", way: || Way::RasterUnproven(raster::Unproven::Double) },
     Level { name: "raster watertight, 12 bits below the pixel", way: watertight::<12, 0> },
     Level { name: "raster watertight, 8 bits", way: watertight::<8, 0> },
     Level { name: "raster watertight, 4 bits", way: watertight::<4, 0> },
     Level { name: "raster watertight, 8 bits, 24-bit depth", way: watertight::<8, 24> },
     Level { name: "raster watertight, 8 bits, 16-bit depth", way: watertight::<8, 16> },
+    Level { name: "raster fast", way: fast::<0> },
+    Level { name: "raster fast, 24-bit depth", way: fast::<24> },
+    Level { name: "raster fast, 16-bit depth", way: fast::<16> },
 ];
 
 /// Prices the levels, and says at how many pixels something is visible; `None` where nothing is.
@@ -118,11 +134,14 @@ pub(super) fn knob(
                 baseline: way.baseline().to_owned(),
                 run: Box::new(move || see(scene, caster, way, window)),
                 judge: Box::new(move |output| {
-                    let buffer = match output {
-                        Output::Surfaces(buffer) | Output::Picture(buffer, _) => buffer,
-                        Output::Nearest(nearest) => cast::surfaces(scene, &nearest),
+                    let (wrong_pixels, buffer) = match output {
+                        Output::Picture(buffer, _) => (reference.wrong_pixels(&buffer), buffer),
+                        Output::Nearest(nearest) => {
+                            let ids = nearest.ids.iter().copied();
+                            let wrong_pixels = reference.wrong_ids(window, ids);
+                            (wrong_pixels, surfaces(scene, caster, way, &nearest))
+                        }
                     };
-                    let wrong_pixels = reference.wrong_pixels(&buffer);
                     let found = picture(scene, &answerer(caster, way), &buffer);
                     Errors { wrong_pixels, ..Errors::of(&found, right, Counted::All) }
                 }),
@@ -133,7 +152,7 @@ pub(super) fn knob(
     let settings = take_turns(&candidates, measure, options.rounds, (NAME, progress));
     let knob = Knob {
         name: NAME,
-        timed: "finding what is visible: ids and t by the caster, whole surfaces by the rasterizer",
+        timed: "finding what is visible: ids and t",
         against: "the exact answer; depth where both see something, radiance at every pixel",
         measure,
         reading: reading::levels(&settings, reference.covered_pixels()),
@@ -143,19 +162,36 @@ pub(super) fn knob(
 }
 
 fn see(scene: &Scene, caster: &Answerer, way: &Way, window: Window) -> Output {
-    match (way, caster) {
+    let best = SimdLevel::best();
+    Output::Nearest(match (way, caster) {
         (Way::Cast, Answerer::Cast(tree)) => {
-            let options = CastOptions::default();
-            Output::Nearest(cast::cast_nearest(scene, tree, window, options, &|| ()))
+            cast::cast_nearest(scene, tree, window, CastOptions::default(), &|| ())
         }
         (Way::CastUnproven(unproven), Answerer::Cast(tree)) => {
-            let best = SimdLevel::best();
-            Output::Nearest(cast::cast_unproven(scene, tree, window, *unproven, best))
+            cast::cast_unproven(scene, tree, window, *unproven, best, &|| ())
         }
-        _ => {
-            let answerer = answerer(caster, way);
-            Output::Surfaces(answerer.answer(scene, window, Counting::Nearest, &|| ()))
+        (Way::RasterUnproven(unproven), _) => {
+            let levels = LevelCounts::default();
+            let mut buffer = NearestBuffer { window, ids: Vec::new(), t: Vec::new(), levels };
+            rasterize_unproven_into(scene, *unproven, best, &mut buffer);
+            buffer
         }
+        _ => rasterize_nearest(scene, window, RasterOptions::default(), &|| ()),
+    })
+}
+
+/// What was seen, with all that a picture needs of it. The rasterizer's levels differ in depths too
+/// and are asked for them.
+fn surfaces(
+    scene: &Scene,
+    caster: &Answerer,
+    way: &Way,
+    nearest: &NearestBuffer,
+) -> VisibilityBuffer {
+    match way {
+        Way::Cast => cast::surfaces(scene, nearest, visibility::Level::Double),
+        Way::CastUnproven(unproven) => cast::surfaces(scene, nearest, unproven.level()),
+        _ => answerer(caster, way).answer(scene, nearest.window, Counting::Nearest, &|| ()),
     }
 }
 
@@ -164,7 +200,7 @@ fn answerer(caster: &Answerer, way: &Way) -> Answerer {
     match way {
         Way::Cast | Way::CastUnproven(_) => caster.clone(),
         Way::Raster => Answerer::Raster,
-        Way::RasterWatertight(bits, depth_buffer) => Answerer::Watertight(*bits, *depth_buffer),
+        Way::RasterUnproven(unproven) => Answerer::RasterUnproven(*unproven),
     }
 }
 

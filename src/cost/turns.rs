@@ -14,8 +14,6 @@ use std::time::{Duration, Instant};
 
 /// What a candidate's timed work hands back.
 pub(super) enum Output {
-    /// What is visible, with all that is known of it.
-    Surfaces(VisibilityBuffer),
     /// Ids and t alone.
     Nearest(NearestBuffer),
     /// What is visible, and its colours.

@@ -6,12 +6,15 @@
 //! nearest, it is stored; pixels at which f32 leaves a doubt go to `doubt`. Bounds are those of
 //! `tile_rows`: an edge's value is off by less than 1, 1/w by the triangle's own bound.
 //!
-//! Without certification (the level `fast`) the same kernel believes f32: bounds of 0, no doubt.
+//! An arithmetic without certification believes f32 in both phases: bounds of 0, no doubt, and nothing
+//! fused, so that what is believed is the same at every instruction set.
 
-use super::blocks::{BlockGrid, Blocks, MOST_BLOCKS, MOST_VECTORS};
+use super::arithmetic::Arithmetic;
+use super::blocks::{BlockGrid, Blocks, MOST_BLOCKS, MOST_VECTORS, SAME_DEPTH};
 use super::doubt::{Doubt, Doubtful};
 use super::octet::Lanes;
 use super::tile_rows::{Drawn, TileRows};
+use super::unproven::StoredDepth;
 use crate::mutant::{self, Mutant};
 use fearless_simd::prelude::*;
 use fearless_simd::{f32x16, i32x16, u32x16};
@@ -43,8 +46,11 @@ struct Splat<S: Simd> {
 
 impl<S: Simd> Splat<S> {
     #[inline(always)]
-    fn at(&self, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
-        self.a.mul_add(x, self.b.mul_add(y, self.c))
+    fn at<A: Arithmetic>(&self, x: f32x16<S>, y: f32x16<S>) -> f32x16<S> {
+        match A::CERTIFIED {
+            true => self.a.mul_add(x, self.b.mul_add(y, self.c)),
+            false => self.a * x + (self.b * y + self.c),
+        }
     }
 }
 
@@ -66,13 +72,15 @@ pub(super) struct Octet<'a> {
     pub(super) lanes: u64,
     pub(super) drawn: &'a [Drawn],
     pub(super) numbers: &'a [u32; 8],
+    /// What is compared, for [`Arithmetic::STORED`].
+    pub(super) stored: &'a StoredDepth,
 }
 
 /// Room to draw in.
 pub(super) struct Drawing {
     values: Vec<Values>,
     /// Lane · 256 + block; a vector more than can be listed.
-    items: Box<[u32; 8 * MOST_BLOCKS + 16]>,
+    pub(super) items: Box<[u32; 8 * MOST_BLOCKS + 16]>,
 }
 
 impl Drawing {
@@ -89,7 +97,7 @@ impl Drawing {
 
     /// Draws an octet's lanes.
     #[inline(always)]
-    pub(super) fn draw<S: Simd, const CERTIFIED: bool, const COUNTING: bool>(
+    pub(super) fn draw<S: Simd, A: Arithmetic, const COUNTING: bool>(
         &mut self,
         simd: S,
         grid: &BlockGrid,
@@ -97,8 +105,8 @@ impl Drawing {
         octet: &Octet<'_>,
         doubt: &mut Doubt<'_>,
     ) {
-        let Octet { rows, lanes, drawn, numbers } = *octet;
-        let count = self.list::<S, CERTIFIED>(simd, grid, blocks, rows, lanes);
+        let Octet { rows, drawn, numbers, stored, .. } = *octet;
+        let count = self.list::<S, A>(simd, grid, blocks, octet);
         let mut changed = [0_u64; 4];
         for index in 0..count {
             let item = self.items[index] as usize;
@@ -109,23 +117,37 @@ impl Drawing {
                 .min(values.at(simd, 1, block))
                 .min(values.at(simd, 2, block));
             let depth = values.at(simd, 3, block);
-            let error = f32x16::splat(simd, rows.error.0[8 + lane]);
-            let (low, high) = (depth - error, depth + error);
             let nearest_low = f32x16::from_slice(simd, &blocks.low[block].0);
             let nearest_high = f32x16::from_slice(simd, &blocks.high[block].0);
             let winner = u32x16::from_slice(simd, &blocks.winner[block].0);
+            let number = u32x16::splat(simd, numbers[lane]);
+            if !A::CERTIFIED {
+                // A NaN is drawn nowhere.
+                let covered = least.simd_ge(0.0) & depth.simd_gt(0.0);
+                let rank = if A::STORED { stored.rank(simd, depth) } else { depth };
+                let nearer = rank.simd_gt(nearest_low) & covered;
+                nearer.select(rank, nearest_low).store_slice(&mut blocks.low[block].0);
+                let mut winner = winner;
+                if A::STORED {
+                    nearer.select(depth, nearest_high).store_slice(&mut blocks.high[block].0);
+                    let same = rank.simd_eq(nearest_low) & covered;
+                    winner = same.select(winner | u32x16::splat(simd, SAME_DEPTH), winner);
+                }
+                nearer.select(number, winner).store_slice(&mut blocks.winner[block].0);
+                changed[block >> 6] |= u64::from(nearer.to_bitmask() != 0) << (block & 63);
+                continue;
+            }
+            let error = f32x16::splat(simd, rows.error.0[8 + lane]);
+            let (low, high) = (depth - error, depth + error);
             // Written so that NaN is a doubt.
-            let bound = if CERTIFIED { 1.0 } else { 0.0 };
-            let outside = least.simd_lt(-bound);
+            let outside = least.simd_lt(-1.0);
             let covered = match mutant::is(Mutant::ClosedEdges) {
-                true => least.simd_ge(-bound),
-                false if CERTIFIED => least.simd_gt(bound),
-                false => least.simd_ge(bound),
+                true => least.simd_ge(-1.0),
+                false => least.simd_gt(1.0),
             };
             let nearer = low.simd_gt(nearest_high) & covered;
             nearer.select(low, nearest_low).store_slice(&mut blocks.low[block].0);
             nearer.select(high, nearest_high).store_slice(&mut blocks.high[block].0);
-            let number = u32x16::splat(simd, numbers[lane]);
             nearer.select(number, winner).store_slice(&mut blocks.winner[block].0);
             if COUNTING {
                 let sign = match mutant::is(Mutant::UnsignedCount) {
@@ -144,7 +166,7 @@ impl Drawing {
                 true => (visible | !(outside | covered)) & !nearer,
                 false => visible & !nearer,
             };
-            let doubtful = if CERTIFIED { doubtful.to_bitmask() } else { 0 };
+            let doubtful = doubtful.to_bitmask();
             let any = visible.to_bitmask() != 0;
             changed[block >> 6] |= u64::from(any) << (block & 63);
             if doubtful != 0 {
@@ -162,7 +184,9 @@ impl Drawing {
                 doubt.decide(grid, blocks, drawn, &doubtful);
             }
         }
-        doubt.levels.single += 16 * count as u64;
+        if A::CERTIFIED {
+            doubt.levels.single += 16 * count as u64;
+        }
         if !COUNTING && changed != [0; 4] {
             blocks.update_farthest(simd, grid, changed);
         }
@@ -170,18 +194,18 @@ impl Drawing {
 
     /// Phase 1: lists (lane, block) and hands back how many there are.
     #[inline(always)]
-    fn list<S: Simd, const CERTIFIED: bool>(
+    pub(super) fn list<S: Simd, A: Arithmetic>(
         &mut self,
         simd: S,
         grid: &BlockGrid,
         blocks: &Blocks,
-        rows: &TileRows,
-        lanes: u64,
+        octet: &Octet<'_>,
     ) -> usize {
+        let Octet { rows, lanes, stored, .. } = *octet;
         let x = f32x16::from_slice(simd, &WITHIN_X);
         let y = f32x16::from_slice(simd, &WITHIN_Y);
         let numbers = u32x16::from_slice(simd, &NUMBERS);
-        let bound = if CERTIFIED { 1.0 } else { 0.0 };
+        let bound = if A::CERTIFIED { 1.0 } else { 0.0 };
         let mut count = 0;
         let mut left = lanes;
         while left != 0 {
@@ -213,14 +237,20 @@ impl Drawing {
                     f32x16::from_slice(simd, &grid.x[vector].0),
                     f32x16::from_slice(simd, &grid.y[vector].0),
                 );
-                let (w0, w1, w2) = (edge0.at(bx, by), edge1.at(bx, by), edge2.at(bx, by));
-                let depth = inverse_depth.at(bx, by);
+                let w0 = edge0.at::<A>(bx, by);
+                let w1 = edge1.at::<A>(bx, by);
+                let w2 = edge2.at::<A>(bx, by);
+                let depth = inverse_depth.at::<A>(bx, by);
                 let farthest = f32x16::from_slice(simd, &blocks.farthest[vector].0);
+                let nearest = match A::STORED {
+                    true => stored.rank(simd, depth + room),
+                    false => depth + room,
+                };
                 // NaN stays in the list.
                 let hidden = w0.simd_lt(least0)
                     | w1.simd_lt(least1)
                     | w2.simd_lt(least2)
-                    | (depth + room).simd_lt(farthest);
+                    | nearest.simd_lt(farthest);
                 let base = vector * 16;
                 w0.store_slice(&mut block0[vector & (MOST_VECTORS - 1)].0);
                 w1.store_slice(&mut block1[vector & (MOST_VECTORS - 1)].0);

@@ -10,7 +10,7 @@ use super::octet::Lanes;
 use super::strips::Strip;
 use super::tile::{Tile, Tiling};
 use crate::mesh::TriangleId;
-use crate::pixel::Pixel;
+use crate::pixel::{Pixel, Window};
 use fearless_simd::prelude::*;
 use fearless_simd::{dispatch, f64x8, mask64x8, u32x16};
 
@@ -36,11 +36,8 @@ fn write_blocks<S: Simd>(
     t: &mut Strip<'_, f32>,
 ) {
     let (per_side, window, side) = (tiling.blocks.per_side, doubt.window, BLOCK_SIDE as usize);
-    let left = (window.x0() - ids.tiles[0].x0()) as usize;
-    let right = left + window.width() as usize;
     let columns = (window.width() as usize).div_ceil(side);
-    let mut answer =
-        BlockRow { ids: [Lanes([0; 16]); MOST_PER_SIDE], t: [Lanes([0.0; 16]); MOST_PER_SIDE] };
+    let mut answer = BlockRow::new();
     for row in 0..(window.height() as usize).div_ceil(side) {
         for column in 0..columns {
             let block = row * per_side + column;
@@ -51,12 +48,7 @@ fn write_blocks<S: Simd>(
                 settle(tiling, doubt, block, doubtful, ids, t);
             }
         }
-        // Copy the pixels that lie in the tile.
-        let rows = row * side..(row * side + side).min(window.height() as usize);
-        for (line, row) in rows.enumerate() {
-            put(&mut ids.rows[row][left..right], line, &answer.ids);
-            put(&mut t.rows[row][left..right], line, &answer.t);
-        }
+        answer.store(window, row, ids, t);
     }
 }
 
@@ -64,9 +56,35 @@ fn write_blocks<S: Simd>(
 const MOST_PER_SIDE: usize = (MOST_SIDE / BLOCK_SIDE) as usize;
 
 /// The answers of a row of blocks.
-struct BlockRow {
-    ids: [Lanes<u32>; MOST_PER_SIDE],
-    t: [Lanes<f32>; MOST_PER_SIDE],
+pub(super) struct BlockRow {
+    pub(super) ids: [Lanes<u32>; MOST_PER_SIDE],
+    pub(super) t: [Lanes<f32>; MOST_PER_SIDE],
+}
+
+impl BlockRow {
+    #[inline(always)]
+    pub(super) fn new() -> Self {
+        Self { ids: [Lanes([0; 16]); MOST_PER_SIDE], t: [Lanes([0.0; 16]); MOST_PER_SIDE] }
+    }
+
+    /// Copies the pixels that lie in the tile, for a row of blocks of it.
+    #[inline(always)]
+    pub(super) fn store(
+        &self,
+        window: Window,
+        row: usize,
+        ids: &mut Strip<'_, u32>,
+        t: &mut Strip<'_, f32>,
+    ) {
+        let left = (window.x0() - ids.tiles[0].x0()) as usize;
+        let right = left + window.width() as usize;
+        let side = BLOCK_SIDE as usize;
+        let rows = row * side..(row * side + side).min(window.height() as usize);
+        for (line, row) in rows.enumerate() {
+            put(&mut ids.rows[row][left..right], line, &self.ids);
+            put(&mut t.rows[row][left..right], line, &self.t);
+        }
+    }
 }
 
 /// Copies a line of pixels from a row of blocks.

@@ -48,6 +48,15 @@ impl Order {
         self.keys.resize(self.ids.len(), 0);
     }
 
+    /// Leaves them in the order of ids, in one class.
+    pub(super) fn keep(&mut self) {
+        self.ids.sort_unstable();
+        self.ends.clear();
+        self.ends.push(self.ids.len() as u32);
+        (self.least, self.shift) = (0, 0);
+        std::mem::swap(&mut self.sorted, &mut self.ids);
+    }
+
     /// Sorts them.
     pub(super) fn sort(&mut self) {
         let (least, most) = self

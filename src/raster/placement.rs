@@ -3,10 +3,11 @@
 //! A triangle that certainly covers no sample of the window dies here: it lies behind the eye, or its
 //! screen box holds no sample. Nothing is clipped: a triangle that reaches the eye's plane gets
 //! the whole window, and where a triangle meets many tiles its edges choose among them.
-//! Triangles that the kernels' f64 cannot treat with certainty are *hard*: V too near to 0 for its
+//! Where anything is certified, triangles that the kernels' f64 cannot treat with certainty are *hard*: V too near to 0 for its
 //! sign, or numbers beyond the range of f32. They are set up once here, by bounds of their own and
 //! exact arithmetic (`bins::set_up`), and drawn one by one.
 
+use super::arithmetic::Kernel;
 use super::bins::{Candidate, set_up};
 use super::bounds::Region;
 use super::frame::{FRONT, Frame};
@@ -70,9 +71,9 @@ impl Placement {
         plane: &ImagePlane,
         frame: &Frame,
         mesh: &TriangleMesh,
-        window: Window,
-        side: u32,
+        (window, side): (Window, u32),
         simd: SimdLevel,
+        kernel: Kernel,
     ) -> Self {
         let grid = Grid::new(window, side);
         let count = mesh.len() as u32;
@@ -81,7 +82,8 @@ impl Placement {
             .into_par_iter()
             .map(|chunk| {
                 let ids = chunk * length..count.min((chunk + 1).saturating_mul(length));
-                let placing = Placing::new(frame, mesh, window, grid, ids.len());
+                let believes = kernel != Kernel::Certain;
+                let placing = Placing::new(frame, mesh, window, grid, ids.len(), believes);
                 dispatch!(simd.dispatched(), simd => placing.chunk(simd, ids))
             })
             .collect();
@@ -133,6 +135,8 @@ struct Placing<'a> {
     window: Window,
     grid: Grid,
     most_pairs: usize,
+    /// Whether no triangle is hard.
+    believes: bool,
     /// (tile, triangle, key).
     pairs: Vec<(u32, u32, u16)>,
     everywhere: Vec<u32>,
@@ -146,11 +150,12 @@ impl<'a> Placing<'a> {
         window: Window,
         grid: Grid,
         triangles: usize,
+        believes: bool,
     ) -> Self {
         let most_pairs = triangles * PAIRS_PER_TRIANGLE + SPARE_PAIRS;
         let pairs = Vec::with_capacity(triangles * 2);
         let (everywhere, hard) = (Vec::new(), Vec::new());
-        Self { frame, mesh, window, grid, most_pairs, pairs, everywhere, hard }
+        Self { frame, mesh, window, grid, most_pairs, believes, pairs, everywhere, hard }
     }
 
     #[inline(always)]
@@ -195,7 +200,10 @@ impl<'a> Placing<'a> {
             return;
         }
         let plane = images.plane(simd, self.frame, corners);
-        let hard = lanes & (hard_lanes(simd, self.frame, &plane) | planted_hard(behind));
+        let hard = match self.believes {
+            true => 0,
+            false => lanes & (hard_lanes(simd, self.frame, &plane) | planted_hard(behind)),
+        };
         let mut left = hard;
         while left != 0 {
             self.hard.push(first + left.trailing_zeros());

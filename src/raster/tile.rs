@@ -2,7 +2,8 @@
 //!
 //! What was found is turned into an answer's shape by `nearest` or `resolve`.
 
-use super::blocks::{BlockGrid, Blocks};
+use super::arithmetic::{Arithmetic, Certain, Double, Kernel, Single, Stored};
+use super::blocks::{BlockGrid, Blocks, MOST_BLOCKS};
 use super::doubt::Doubt;
 use super::draw::{Drawing, Octet};
 use super::frame::Frame;
@@ -11,6 +12,7 @@ use super::octet::{Corners, OCTET};
 use super::order::Order;
 use super::placement::Placement;
 use super::tile_rows::{Drawn, TileFrame, TileRows, is_hidden};
+use super::unproven::StoredDepth;
 use crate::mesh::TriangleMesh;
 use crate::pixel::Window;
 use crate::simd::SimdLevel;
@@ -27,6 +29,8 @@ pub(super) struct Tiling<'a> {
     pub(super) placement: Placement,
     pub(super) blocks: BlockGrid,
     pub(super) simd: SimdLevel,
+    pub(super) kernel: Kernel,
+    pub(super) stored: StoredDepth,
 }
 
 impl<'a> Tiling<'a> {
@@ -37,10 +41,12 @@ impl<'a> Tiling<'a> {
         window: Window,
         side: u32,
         simd: SimdLevel,
+        kernel: Kernel,
     ) -> Self {
         let frame = Frame::new(plane);
-        let placement = Placement::new(plane, &frame, mesh, window, side, simd);
-        Self { plane, frame, mesh, placement, blocks: BlockGrid::new(side), simd }
+        let placement = Placement::new(plane, &frame, mesh, (window, side), simd, kernel);
+        let stored = StoredDepth::new(kernel, frame.ray_parameter);
+        Self { plane, frame, mesh, placement, blocks: BlockGrid::new(side), simd, kernel, stored }
     }
 }
 
@@ -49,6 +55,8 @@ pub(super) struct Tile {
     pub(super) blocks: Blocks,
     /// The triangles that were drawn, by number.
     pub(super) drawn: Vec<Drawn>,
+    /// Per block, the winners' 1/w, for [`Kernel::Double`]; 0 where nothing was drawn.
+    pub(super) depths: Vec<[f64; 16]>,
     counting: bool,
     order: Order,
     drawing: Drawing,
@@ -61,6 +69,7 @@ impl Tile {
         Self {
             blocks: Blocks::new(counting),
             drawn: Vec::new(),
+            depths: Vec::new(),
             counting,
             order: Order::default(),
             drawing: Drawing::new(),
@@ -69,19 +78,44 @@ impl Tile {
         }
     }
 
+    /// How many triangles the tile drawn last was listed for, hard ones left out.
+    pub(super) fn listed(&self) -> u64 {
+        self.order.sorted().len() as u64
+    }
+
     /// Draws a tile, and hands back the stage that settled its doubts.
     pub(super) fn draw<'a>(&mut self, tiling: &'a Tiling<'a>, window: Window) -> Doubt<'a> {
         let mut doubt = Doubt::new(tiling.plane, &tiling.frame, tiling.mesh, window);
         self.blocks.clear(&tiling.blocks, window);
         self.drawn.clear();
         tiling.placement.triangles(window, &mut self.order);
-        self.order.sort();
-        match self.counting {
-            false => dispatch!(tiling.simd.dispatched(), simd => {
-                self.draw_octets::<_, true, false>(simd, tiling, window, &mut doubt);
+        match tiling.kernel {
+            // Of equal depths the first that was submitted stays.
+            Kernel::Stored(..) => self.order.keep(),
+            _ => self.order.sort(),
+        }
+        match (tiling.kernel, self.counting) {
+            (Kernel::Certain, false) => dispatch!(tiling.simd.dispatched(), simd => {
+                self.draw_octets::<_, Certain, false>(simd, tiling, window, &mut doubt);
             }),
-            true => dispatch!(tiling.simd.dispatched(), simd => {
-                self.draw_octets::<_, true, true>(simd, tiling, window, &mut doubt);
+            (Kernel::Certain, true) => dispatch!(tiling.simd.dispatched(), simd => {
+                self.draw_octets::<_, Certain, true>(simd, tiling, window, &mut doubt);
+            }),
+            (Kernel::Double, _) => {
+                self.depths.resize(MOST_BLOCKS, [0.0; 16]);
+                for (depths, low) in self.depths.iter_mut().zip(&self.blocks.low[..]) {
+                    // Nothing is drawn where the z-buffer holds +∞.
+                    *depths = low.0.map(|low| f64::from(low).max(0.0));
+                }
+                dispatch!(tiling.simd.dispatched(), simd => {
+                    self.draw_octets::<_, Double, false>(simd, tiling, window, &mut doubt);
+                });
+            }
+            (Kernel::Single, _) => dispatch!(tiling.simd.dispatched(), simd => {
+                self.draw_octets::<_, Single, false>(simd, tiling, window, &mut doubt);
+            }),
+            (Kernel::Stored(..), _) => dispatch!(tiling.simd.dispatched(), simd => {
+                self.draw_octets::<_, Stored, false>(simd, tiling, window, &mut doubt);
             }),
         }
         for candidate in tiling.placement.hard(window) {
@@ -91,7 +125,7 @@ impl Tile {
     }
 
     #[inline(always)]
-    fn draw_octets<S: Simd, const CERTIFIED: bool, const COUNTING: bool>(
+    fn draw_octets<S: Simd, A: Arithmetic, const COUNTING: bool>(
         &mut self,
         simd: S,
         tiling: &Tiling<'_>,
@@ -118,14 +152,8 @@ impl Tile {
                 true => f32::NEG_INFINITY,
                 false => self.blocks.farthest_of_all,
             };
-            let lanes = self.rows.set_up::<S, CERTIFIED>(
-                simd,
-                &tiling.frame,
-                &place,
-                corners,
-                lanes,
-                farthest,
-            );
+            let lanes =
+                self.rows.set_up::<S, A>(simd, &tiling.frame, &place, corners, lanes, farthest);
             if lanes == 0 {
                 continue;
             }
@@ -137,14 +165,20 @@ impl Tile {
                 numbers[lane] = self.drawn.len() as u32;
                 self.drawn.push(self.rows.drawn(&tiling.frame, lane, octet[lane]));
             }
-            let octet = Octet { rows: &self.rows, lanes, drawn: &self.drawn, numbers: &numbers };
-            self.drawing.draw::<S, CERTIFIED, COUNTING>(
-                simd,
-                &tiling.blocks,
-                &mut self.blocks,
-                &octet,
-                doubt,
-            );
+            let octet = Octet {
+                rows: &self.rows,
+                lanes,
+                drawn: &self.drawn,
+                numbers: &numbers,
+                stored: &tiling.stored,
+            };
+            let (grid, blocks) = (&tiling.blocks, &mut self.blocks);
+            match A::DOUBLE {
+                true => self.drawing.draw_double(simd, grid, blocks, &mut self.depths, &octet),
+                false => {
+                    self.drawing.draw::<S, A, COUNTING>(simd, grid, blocks, &octet, doubt);
+                }
+            }
         }
     }
 }

@@ -18,6 +18,7 @@
 //! S·(6·v + 4/3·ρ) + 4/3·`row_error`·r_01·r_20/|V|, S as above, the widening by it (one rounding)
 //! included; what is taken is a little more, and 2^-120 for underflow.
 
+use super::arithmetic::Arithmetic;
 use super::blocks::BlockGrid;
 use super::frame::Frame;
 use super::octet::{Corners, Images, Lanes, Plane, Triple};
@@ -98,6 +99,8 @@ pub(super) struct TileRows {
     /// Blocks that the triangle can meet, along x in lanes 0…7, along y in lanes 8…15.
     pub(super) from: Lanes<i32>,
     pub(super) to: Lanes<i32>,
+    /// The same four rows in f64, for [`Arithmetic::DOUBLE`]: edges 0, 1, 2 and 1/w.
+    pub(super) wide: [[[f64; 8]; 3]; 4],
     plane: [[f64; 8]; 3],
     volume: [f64; 8],
     least_plane: [f64; 8],
@@ -114,16 +117,17 @@ impl TileRows {
             error: zero,
             from: none,
             to: none,
+            wide: [[[0.0; 8]; 3]; 4],
             plane: [[0.0; 8]; 3],
             volume: [0.0; 8],
             least_plane: [0.0; 8],
         }
     }
 
-    /// Sets up the lanes of `lanes`, none of them hard, and hands back those that may cover a
-    /// sample of the tile nearer than `farthest`.
+    /// Sets up the lanes of `lanes`, none of them hard where anything is certified, and hands back
+    /// those that may cover a sample of the tile nearer than `farthest`.
     #[inline(always)]
-    pub(super) fn set_up<S: Simd, const CERTIFIED: bool>(
+    pub(super) fn set_up<S: Simd, A: Arithmetic>(
         &mut self,
         simd: S,
         frame: &Frame,
@@ -153,6 +157,10 @@ impl TileRows {
             images.plane(simd, frame, corners);
         let inside = f64x8::splat(simd, 1.0).copysign(volume);
         let size = volume.abs();
+        if A::BELIEVED {
+            // What the eye sees edge-on covers nothing.
+            lanes &= size.simd_gt(0.0).to_bitmask();
+        }
         // Edges, in their units.
         let least = 4.0 * frame.row_error;
         let e0 = edge_row(tile, &edges[0], pairs[0] * least, inside);
@@ -169,6 +177,13 @@ impl TileRows {
         let error = total * (volume_error * inverse * VOLUME_SHARE + SINGLE_SHARE)
             + plane_error * inverse * VOLUME_SHARE
             + LEAST_ERROR;
+        if A::DOUBLE {
+            for (row, lanes) in [e0, e1, e2, depth].iter().zip(&mut self.wide) {
+                for (coefficient, lanes) in row.iter().zip(lanes) {
+                    coefficient.store_slice(lanes);
+                }
+            }
+        }
         // To f32; the error outwards.
         let rows_a = [e0[0].narrow(e1[0]), e2[0].narrow(depth[0])];
         let rows_b = [e0[1].narrow(e1[1]), e2[1].narrow(depth[1])];
@@ -179,7 +194,7 @@ impl TileRows {
         let reach = tile.reach as f32;
         let mut masks = [0_u64; 2];
         // The least value that an edge needs somewhere in the tile, and 1/w.
-        let bound = if CERTIFIED { 1.0 } else { 0.0 };
+        let bound = if A::CERTIFIED { 1.0 } else { 0.0 };
         let mut least = [-bound; 16];
         least[8..].fill(farthest);
         let least = [f32x16::splat(simd, -bound), f32x16::from_slice(simd, &least)];
@@ -194,7 +209,7 @@ impl TileRows {
                 0 => most,
                 _ => {
                     let depth_error = mask_of_depth(simd).select(error, zero);
-                    if CERTIFIED { most + depth_error } else { most }
+                    if A::CERTIFIED { most + depth_error } else { most }
                 }
             };
             // NaN never excludes.
@@ -212,7 +227,7 @@ impl TileRows {
         if lanes == 0 {
             return 0;
         }
-        match CERTIFIED {
+        match A::CERTIFIED {
             true => error.store_slice(&mut self.error.0),
             false => zero.store_slice(&mut self.error.0),
         }

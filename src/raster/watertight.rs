@@ -26,10 +26,11 @@ mod tile;
 
 use super::TILE_SIDE;
 use super::image_plane::ImagePlane;
+use super::strips::{for_each_strip, strips};
 use super::tile_lists::{Grid, TileLists};
 use crate::pixel::{Window, for_each_tile};
 use crate::scene::Scene;
-use crate::visibility::{Counting, VisibilityBuffer};
+use crate::visibility::{Counting, NearestBuffer, VisibilityBuffer};
 pub use depth_buffer::{DepthBuffer, DepthFormat};
 use projection::Projector;
 use rayon::prelude::*;
@@ -50,6 +51,9 @@ impl SubpixelBits {
     /// Most bits: with the guard band they keep every edge function inside i64 (`snapped`).
     pub const MOST: u32 = 12;
 
+    /// 8, which Direct3D demands and nearly all hardware has.
+    pub const STANDARD: Self = Self(8);
+
     /// So many bits, or `None` for more than [`Self::MOST`].
     pub const fn new(bits: u32) -> Option<Self> {
         if bits <= Self::MOST { Some(Self(bits)) } else { None }
@@ -62,9 +66,9 @@ impl SubpixelBits {
 }
 
 impl Default for SubpixelBits {
-    /// 8, which Direct3D demands and nearly all hardware has.
+    /// [`Self::STANDARD`].
     fn default() -> Self {
-        Self(8)
+        Self::STANDARD
     }
 }
 
@@ -84,25 +88,69 @@ pub fn rasterize_watertight(
     done: &(dyn Fn() + Sync),
 ) -> VisibilityBuffer {
     let plane = ImagePlane::new(&scene.camera);
-    let projector = Projector::new(&plane, &scene.mesh, subpixel_bits);
-    // Project, clip and snap in parallel; the pieces keep the order of ids.
-    let pieces: Vec<Piece> = scene
-        .mesh
-        .ids()
-        .collect::<Vec<_>>()
-        .par_iter()
-        .with_min_len(1024)
-        .flat_map_iter(|&id| snapped::pieces(&projector, id, scene.mesh.triangle(id)))
-        .collect();
-    let test = DepthTest { buffer: depth_buffer, z_per_t: scene.camera.z_per_t() };
-    let grid = Grid::new(window, TILE_SIDE);
-    let placed = pieces.iter().enumerate().filter_map(|(number, piece)| {
-        let pixels = piece.pixels(subpixel_bits, window)?;
-        Some((number as u32, grid.tiles_of(pixels)))
-    });
-    let lists = TileLists::new(grid, placed);
+    let snapped = Snapped::new(scene, &plane, window, subpixel_bits, depth_buffer);
     let tiles = for_each_tile(&window.tiles(TILE_SIDE), done, |tile| {
-        tile::rasterize_tile(&projector, &test, &pieces, &lists, counting, tile)
+        tile::rasterize_tile(&snapped, counting, tile)
     });
     VisibilityBuffer::from_tiles(window, counting, tiles)
+}
+
+/// As [`rasterize_watertight`], ids and t alone, into a buffer of that size that there is already.
+pub(super) fn rasterize_watertight_into(
+    scene: &Scene,
+    subpixel_bits: SubpixelBits,
+    depth_buffer: Option<DepthBuffer>,
+    buffer: &mut NearestBuffer,
+) {
+    let window = buffer.window;
+    let plane = ImagePlane::new(&scene.camera);
+    let snapped = Snapped::new(scene, &plane, window, subpixel_bits, depth_buffer);
+    let ids = strips(window, TILE_SIDE, &mut buffer.ids);
+    let work = ids.into_iter().zip(strips(window, TILE_SIDE, &mut buffer.t)).collect();
+    for_each_strip(
+        work,
+        || (),
+        |(), (mut ids, mut t)| {
+            for window in ids.tiles.clone() {
+                tile::write_nearest(&snapped, window, &mut ids, &mut t);
+            }
+        },
+    );
+}
+
+/// A scene on the grid, sorted into tiles.
+struct Snapped<'a> {
+    projector: Projector<'a>,
+    test: DepthTest,
+    pieces: Vec<Piece>,
+    lists: TileLists,
+}
+
+impl<'a> Snapped<'a> {
+    /// Projects, clips and snaps in parallel; the pieces keep the order of ids.
+    fn new(
+        scene: &Scene,
+        plane: &'a ImagePlane,
+        window: Window,
+        subpixel_bits: SubpixelBits,
+        depth_buffer: Option<DepthBuffer>,
+    ) -> Self {
+        let projector = Projector::new(plane, &scene.mesh, subpixel_bits);
+        let pieces: Vec<Piece> = scene
+            .mesh
+            .ids()
+            .collect::<Vec<_>>()
+            .par_iter()
+            .with_min_len(1024)
+            .flat_map_iter(|&id| snapped::pieces(&projector, id, scene.mesh.triangle(id)))
+            .collect();
+        let test = DepthTest { buffer: depth_buffer, z_per_t: scene.camera.z_per_t() };
+        let grid = Grid::new(window, TILE_SIDE);
+        let placed = pieces.iter().enumerate().filter_map(|(number, piece)| {
+            let pixels = piece.pixels(subpixel_bits, window)?;
+            Some((number as u32, grid.tiles_of(pixels)))
+        });
+        let lists = TileLists::new(grid, placed);
+        Self { projector, test, pieces, lists }
+    }
 }

@@ -2,7 +2,9 @@
 //!
 //! Only the words; the paths hold the arithmetic.
 
-use crate::raster::{DepthBuffer, SubpixelBits};
+use super::VisibilityPath;
+use crate::cast;
+use crate::raster;
 
 /// How visibility is decided.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -10,14 +12,10 @@ pub enum Accuracy {
     /// Every pixel is the exact answer.
     #[default]
     Exact,
-    /// The rasterizer of graphics processors: no holes, but vertices moved to a fixed-point grid
-    /// and depths in f32.
-    Watertight {
-        /// Bits of the grid below the pixel.
-        subpixel_bits: SubpixelBits,
-        /// How depths are stored; `None` keeps the interpolated f32 1/w.
-        depth_buffer: Option<DepthBuffer>,
-    },
+    /// Rays, without proof.
+    Cast(cast::Unproven),
+    /// The z-buffer rasterizer, without proof.
+    Raster(raster::Unproven),
 }
 
 impl Accuracy {
@@ -25,7 +23,22 @@ impl Accuracy {
     pub const fn name(self) -> &'static str {
         match self {
             Self::Exact => "exact",
-            Self::Watertight { .. } => "watertight",
+            Self::Cast(unproven) => unproven.name(),
+            Self::Raster(unproven) => unproven.name(),
         }
+    }
+
+    /// The path whose way it is; `None` where both paths give the same answer.
+    pub const fn path(self) -> Option<VisibilityPath> {
+        match self {
+            Self::Exact => None,
+            Self::Cast(_) => Some(VisibilityPath::Cast),
+            Self::Raster(_) => Some(VisibilityPath::Raster),
+        }
+    }
+
+    /// Whether all triangles that cross a pixel's ray can be counted.
+    pub const fn counts_cover(self) -> bool {
+        matches!(self, Self::Exact | Self::Raster(raster::Unproven::Watertight { .. }))
     }
 }

@@ -4,12 +4,11 @@
 use super::VisibilityPath;
 use super::progress::Progress;
 use crate::accel::{Accelerator, BuildPreset};
-use crate::cast::{self, cast, cast_layers};
+use crate::cast::{self, cast, cast_layers, cast_unproven, surfaces};
 use crate::pixel::Window;
-use crate::raster::{
-    self, DepthBuffer, SubpixelBits, rasterize, rasterize_layers, rasterize_watertight,
-};
+use crate::raster::{self, rasterize, rasterize_layers, rasterize_unproven};
 use crate::scene::Scene;
+use crate::simd::SimdLevel;
 use crate::visibility::{Counting, Layers, VisibilityBuffer};
 
 /// A path that is ready to answer for every camera over one mesh.
@@ -19,8 +18,10 @@ pub enum Answerer {
     Cast(Accelerator),
     /// The z-buffer rasterizer.
     Raster,
-    /// The rasterizer of graphics processors. It knows only the nearest surface.
-    Watertight(SubpixelBits, Option<DepthBuffer>),
+    /// Rays through this BVH without proof. They know only the nearest surface.
+    CastUnproven(Accelerator, cast::Unproven),
+    /// A rasterizer without proof. It knows only the nearest surface.
+    RasterUnproven(raster::Unproven),
 }
 
 impl Answerer {
@@ -42,11 +43,19 @@ impl Answerer {
         }
     }
 
+    /// The BVH, where there is one.
+    pub const fn tree(&self) -> Option<&Accelerator> {
+        match self {
+            Self::Cast(tree) | Self::CastUnproven(tree, _) => Some(tree),
+            Self::Raster | Self::RasterUnproven(_) => None,
+        }
+    }
+
     /// What it does, as progress calls it, and the side of its tiles in pixels.
     const fn stage(&self) -> (&'static str, u32) {
         match self {
-            Self::Cast(_) => ("cast", cast::TILE_SIDE),
-            Self::Raster | Self::Watertight(..) => ("rasterize", raster::TILE_SIDE),
+            Self::Cast(_) | Self::CastUnproven(..) => ("cast", cast::TILE_SIDE),
+            Self::Raster | Self::RasterUnproven(_) => ("rasterize", raster::TILE_SIDE),
         }
     }
 
@@ -74,8 +83,14 @@ impl Answerer {
         match self {
             Self::Cast(accelerator) => cast(scene, accelerator, window, counting, done),
             Self::Raster => rasterize(scene, window, counting, done),
-            Self::Watertight(bits, depth_buffer) => {
-                rasterize_watertight(scene, window, *bits, *depth_buffer, counting, done)
+            Self::CastUnproven(accelerator, unproven) => {
+                let simd = SimdLevel::best();
+                let nearest = cast_unproven(scene, accelerator, window, *unproven, simd, done);
+                surfaces(scene, &nearest, unproven.level())
+            }
+            Self::RasterUnproven(unproven) => {
+                let simd = SimdLevel::best();
+                rasterize_unproven(scene, window, *unproven, simd, counting, done)
             }
         }
     }
@@ -94,8 +109,8 @@ impl Answerer {
     }
 
     /// [`Self::see_through`], with `done` called once per finished tile, from any thread. Nothing
-    /// is asked where every surface is opaque; the watertight rasterizer has no answer to it and
-    /// shows none.
+    /// is asked where every surface is opaque; a path without proof has no answer to it and shows
+    /// none.
     pub fn layers(
         &self,
         scene: &Scene,
@@ -109,7 +124,7 @@ impl Answerer {
         match self {
             Self::Cast(accelerator) => cast_layers(scene, accelerator, nearest, &opaque, done),
             Self::Raster => rasterize_layers(scene, nearest, &opaque, done),
-            Self::Watertight(..) => Layers::none(nearest.window),
+            Self::CastUnproven(..) | Self::RasterUnproven(_) => Layers::none(nearest.window),
         }
     }
 }

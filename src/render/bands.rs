@@ -67,31 +67,30 @@ impl<'a> Ready<'a> {
                 VisibilityPath::Cast => Answerer::Cast(tree(&mut account)),
                 VisibilityPath::Raster => Answerer::Raster,
             },
-            Accuracy::Watertight { subpixel_bits, depth_buffer } => {
-                Answerer::Watertight(subpixel_bits, depth_buffer)
-            }
+            Accuracy::Cast(unproven) => Answerer::CastUnproven(tree(&mut account), unproven),
+            Accuracy::Raster(unproven) => Answerer::RasterUnproven(unproven),
         };
         let occluders = occluders(&answerer, effects, || tree(&mut account));
         account.times.build = started.elapsed();
         account.mesh_bytes = scene.mesh.bytes();
-        account.tree_bytes = occluders.of(&answerer).map(Accelerator::bytes);
+        let tree = answerer.tree().or(occluders.of(&answerer));
+        account.tree_bytes = tree.map(Accelerator::bytes);
         let started = Instant::now();
         account.description = describe(scene, options.accuracy).to_string();
         account.times.describing = started.elapsed();
         Self { scene, options, window, answerer, occluders, effects, account }
     }
 
-    /// The bands of the window; a list of visible triangles needs the whole window. The rasterizer
-    /// looks at every triangle in every band.
+    /// The bands of the window; a list of visible triangles needs the whole window, and what is
+    /// believed without proof may depend on where it is cut, which threads must not show. The
+    /// rasterizer looks at every triangle in every band.
     fn bands(&self) -> Vec<Window> {
-        if self.options.listing.is_some() {
+        if self.options.listing.is_some() || self.options.accuracy != Accuracy::Exact {
             return vec![self.window];
         }
-        let least = match self.answerer {
-            Answerer::Cast(_) => 1,
-            Answerer::Raster | Answerer::Watertight(..) => {
-                PIXELS_PER_TRIANGLE * self.scene.mesh.len()
-            }
+        let least = match self.answerer.tree() {
+            Some(_) => 1,
+            None => PIXELS_PER_TRIANGLE * self.scene.mesh.len(),
         };
         let least = least.div_ceil(self.window.width() as usize);
         let rows = least.max(BAND_ROWS as usize * rayon::current_num_threads());
@@ -172,7 +171,7 @@ impl<'a> Ready<'a> {
         let Some(listing) = self.options.listing else { return };
         // What lies between the pixel centres is looked for exactly, however the frame was made.
         let exact = match &self.answerer {
-            Answerer::Watertight(..) => &Answerer::Raster,
+            Answerer::CastUnproven(..) | Answerer::RasterUnproven(_) => &Answerer::Raster,
             exact => exact,
         };
         let started = Instant::now();

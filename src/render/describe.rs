@@ -1,9 +1,11 @@
 //! What a picture was made of, as one canonical JSON document: the film's description.
 //!
 //! Only what decides the picture's bits: scene digest, camera lattice, switches, accuracy and
-//! effects. Not the path, threads or times, which change no bit. Keys are sorted.
+//! effects. Not threads or times, which change no bit, nor the path, unless the answer is one path's own.
+//! Keys are sorted.
 
-use super::Accuracy;
+use super::{Accuracy, VisibilityPath};
+use crate::raster::Unproven;
 use crate::scene::Scene;
 use crate::scene::hash::content_hash;
 use crate::scene::sampling::SampleGrid;
@@ -39,9 +41,17 @@ pub fn describe(scene: &Scene, accuracy: Accuracy) -> Value {
     if scene.samples != SampleGrid::CENTRE {
         document["samples"] = json!(scene.samples.side());
     }
-    if let Accuracy::Watertight { subpixel_bits, depth_buffer } = accuracy {
-        document["subpixel_bits"] = json!(subpixel_bits.get());
-        if let Some(buffer) = depth_buffer {
+    if let Some(path) = accuracy.path() {
+        document["path"] = json!(match path {
+            VisibilityPath::Cast => "cast",
+            VisibilityPath::Raster => "raster",
+        });
+    }
+    if let Accuracy::Raster(unproven) = accuracy {
+        if let Unproven::Watertight { subpixel_bits, .. } = unproven {
+            document["subpixel_bits"] = json!(subpixel_bits.get());
+        }
+        if let Some(buffer) = unproven.depth_buffer() {
             document["depth_buffer"] = json!({
                 "bits": buffer.format().bits(), "near": buffer.near(), "far": buffer.far(),
             });

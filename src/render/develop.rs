@@ -21,7 +21,8 @@ const NOTHING: u32 = u32::MAX;
 
 /// Fills the planes that are asked for. `radiance` and `alpha` have one value per pixel of the
 /// buffer, and `accuracy` says how the buffer was found.
-/// Texture coordinates are left out of a scene that has none, unless only they are asked for.
+/// Texture coordinates are left out of a scene that has none, unless only they are asked for; the cover
+/// is left out where it was not counted.
 pub fn develop(
     scene: &Scene,
     buffer: &VisibilityBuffer,
@@ -43,10 +44,10 @@ pub(super) fn develop_described(
     groups: &PlaneGroups,
     description: String,
 ) -> Film {
-    let is_asked = |group: &PlaneGroup| {
-        *group != PlaneGroup::TextureCoordinates
-            || !scene.mesh.uvs.is_empty()
-            || groups.iter().count() == 1
+    let is_asked = |group: &PlaneGroup| match group {
+        PlaneGroup::TextureCoordinates => !scene.mesh.uvs.is_empty() || groups.iter().count() == 1,
+        PlaneGroup::Cover => buffer.cover.is_some(),
+        _ => true,
     };
     let asked: Vec<PlaneGroup> = groups.iter().filter(is_asked).collect();
     let size = buffer.window.len();

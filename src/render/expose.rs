@@ -53,11 +53,13 @@ pub fn expose(
 pub(super) struct Occluders(Option<Accelerator>);
 
 impl Occluders {
-    /// The tree that shadow rays go through: the path's own, or this.
+    /// The tree that shadow rays go through: the path's own, or this. Without proof there is no point
+    /// on a surface that they could leave from with certainty, and so no shadow.
     pub(super) fn of<'a>(&'a self, answerer: &'a Answerer) -> Option<&'a Accelerator> {
         match answerer {
             Answerer::Cast(accelerator) => Some(accelerator),
-            Answerer::Raster | Answerer::Watertight(..) => self.0.as_ref(),
+            Answerer::CastUnproven(..) => None,
+            Answerer::Raster | Answerer::RasterUnproven(_) => self.0.as_ref(),
         }
     }
 }

@@ -27,7 +27,8 @@ pub enum PlaneGroup {
     Facing,
     /// `cover`: number of triangles that cross the ray.
     Cover,
-    /// `verdict.level verdict.tie`.
+    /// `verdict.level verdict.tie`. Without proof the level is that of the arithmetic that is
+    /// believed, and only a depth buffer knows ties: its own.
     Verdict,
     /// `stable`: 1 where the answer is certainly the same within ±1/256 pixel.
     Stable,

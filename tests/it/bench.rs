@@ -224,6 +224,18 @@ fn the_workload_is_what_was_asked_for() {
     assert_eq!(status, 0, "{stderr}");
     let report: Value = serde_json::from_str(&stdout).unwrap();
     let scenes = report["scenes"].as_array().unwrap();
+    for scene in scenes {
+        let rows = scene["rows"].as_array().unwrap().iter();
+        let names = rows.map(|row| (row["name"].as_str().unwrap(), row["exact"] == true));
+        let expected = [
+            ("raster", true),
+            ("raster, surfaces", true),
+            ("raster, watertight", false),
+            ("raster, double", false),
+            ("raster, fast", false),
+        ];
+        assert_eq!(names.collect::<Vec<_>>(), expected);
+    }
     let found: Vec<_> = scenes.iter().map(|scene| scene["simd"].as_str().unwrap()).collect();
     assert_eq!(found, names);
     for (option, word) in [("--work", "shades"), ("--preset", "slowest"), ("--simd", "avx")] {
@@ -400,4 +412,45 @@ fn wrong_shadows_are_found_by_exact_arithmetic() {
     assert!(lit > 0 && dark > 0, "{lit} {dark}");
     assert_eq!(lit + dark, reference.covered_pixels());
     assert_eq!(reference.wrong_shadows(&[]), reference.covered_pixels());
+}
+
+#[test]
+fn counters_are_the_same_in_every_run_and_fit_the_scene() {
+    let folder = TempDir::new().unwrap();
+    let run = |more: &[&str]| {
+        let arguments = [&["--json", "--work", "closest,raster"][..], more].concat();
+        let (status, stdout, stderr) = bench(folder.path(), &arguments);
+        assert_eq!(status, 0, "{stderr}");
+        let report: Value = serde_json::from_str(&stdout).unwrap();
+        report["scenes"].as_array().unwrap().clone()
+    };
+    let levels: Vec<&str> = SimdLevel::available().into_iter().map(SimdLevel::name).collect();
+    let presets = ["--preset", "fast,medium", "--simd", &levels.join(",")];
+    let mut scenes = run(&presets);
+    scenes.extend(run(&[&presets[..], &["--threads", "3"]].concat()));
+    let first = &scenes[0];
+    assert!(scenes.iter().all(|scene| scene["counters"] == first["counters"]));
+    let counters = first["counters"].as_array().unwrap();
+    let names: Vec<_> = counters.iter().map(|own| own["name"].as_str().unwrap()).collect();
+    assert_eq!(names, ["cast fast", "cast medium", "raster"]);
+    let (triangles, covered) =
+        (first["triangles"].as_u64().unwrap(), first["covered_pixels"].as_u64().unwrap());
+    for own in counters {
+        let count = |what: &str| own["counts"][what].as_u64().unwrap_or_else(|| panic!("{what}"));
+        // A visible sample was drawn.
+        assert!(count("samples") >= covered, "{own}");
+        if own["name"] == "raster" {
+            assert!((1..=count("listed")).contains(&count("drawn")), "{own}");
+        } else {
+            let nodes = count("nodes");
+            assert!((nodes..=16 * nodes).contains(&count("boxes")), "{own}");
+            assert!(count("leaf_triangles") >= count("set_up"), "{own}");
+            // One tile at this size: no triangle is met twice, but for room in leaves.
+            assert!(count("set_up") > 0 && count("set_up") <= triangles, "{own}");
+        }
+    }
+    // What is not asked for is not counted.
+    let raster = run(&["--only", "raster"]);
+    let names = raster[0]["counters"].as_array().unwrap().iter().map(|own| own["name"].clone());
+    assert_eq!(names.collect::<Vec<_>>(), ["raster"]);
 }

@@ -75,6 +75,11 @@ fn exact_levels_are_right_and_coarser_grids_are_more_wrong() {
     assert_eq!((wrong("cast exact"), wrong("raster exact")), (0.0, 0.0));
     let [four, eight, twelve] = ["4 bits", "8 bits", "12 bits below the pixel"]
         .map(|bits| wrong(&format!("raster watertight, {bits}")));
+    // f64 errs nowhere here, and a depth buffer of 16 bits where f32 does not.
+    assert_eq!((wrong("cast double"), wrong("raster double")), (0.0, 0.0));
+    let [fast, d24, d16] = ["", ", 24-bit depth", ", 16-bit depth"]
+        .map(|buffer| wrong(&format!("raster fast{buffer}")));
+    assert!(fast <= d24 && d24 < d16, "{fast} {d24} {d16}");
     // A vertex moves 16 times as far with 4 bits as with 8, and 256 times as far as with 12.
     assert!(four > 4.0 * eight && eight > twelve, "{four} {eight} {twelve}");
 }

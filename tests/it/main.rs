@@ -82,6 +82,8 @@ mod vertex_colors;
 mod vertex_normals;
 // Several samples per pixel, as the program gives them.
 mod supersampling;
+// The levels without proof, on both paths: right, wrong and refused where they must be.
+mod unproven;
 // The list of visible triangles, and what lies between pixel centres.
 mod visible;
 // The rasterizer as graphics processors have it: exactly once, and where it may differ.

@@ -45,6 +45,7 @@ fn measured(rows: Vec<Row>) -> Measured {
         audited_pixels: 12,
         trees: Vec::new(),
         rows,
+        counters: Vec::new(),
         left_out: Vec::new(),
     }
 }

@@ -3,14 +3,15 @@
 //!
 //! Packets are 16 rays of 4 × 4 pixels, or 8 of 4 × 2 where the instruction set has no 16 lanes:
 //! Embree would trace packets of 16 one ray at a time there. Trees are of medium quality, its
-//! default. Denormals are left as they are: no mesh worth timing has any.
+//! default. Shadow rays go one by one. Denormals are left as they are: no mesh worth timing has any.
 
 use super::embree_sys::{Call, Embree, Lanes, Packet, Tree};
 use super::rays::Rays;
+use super::shadow_rays::ShadowRays;
 use super::{Hits, PeerError, PeerOptions};
 use crate::bench::workload::{Answer, Variant, Work};
 use crate::mesh::TriangleMesh;
-use crate::pixel::Pixel;
+use crate::pixel::{Pixel, for_each_row};
 use crate::simd::SimdLevel;
 use std::ffi::OsStr;
 use std::hint::black_box;
@@ -37,6 +38,9 @@ pub(super) const NAMES: [&str; 6] = [
     "Embree 8 coherent, robust",
     "Embree 16 coherent, robust",
 ];
+
+/// The names of its variants of shadow rays.
+pub(super) const SHADOW_NAMES: [&str; 2] = ["shadow Embree", "shadow Embree, robust"];
 
 /// One mesh, built with and without the robust flag.
 pub(super) struct Scenes<'a> {
@@ -83,8 +87,12 @@ impl<'a> Scenes<'a> {
         Ok(Self { embree, mesh, configuration, fast, robust })
     }
 
-    /// The build, and both trees by single rays and by packets.
-    pub(super) fn variants<'b>(&'b self, rays: &'b Rays) -> Vec<Variant<'b>> {
+    /// The build, and both trees by single rays, by packets and by shadow rays.
+    pub(super) fn variants<'b>(
+        &'b self,
+        rays: &'b Rays,
+        shadows: Option<&'b ShadowRays>,
+    ) -> Vec<Variant<'b>> {
         let [major, minor, patch] = self.embree.version;
         let program = format!("Embree {major}.{minor}.{patch}");
         let mut variants = Vec::new();
@@ -116,6 +124,12 @@ impl<'a> Scenes<'a> {
                 },
             ));
         }
+        for (tree, name) in [&self.fast, &self.robust].into_iter().zip(SHADOW_NAMES) {
+            variants.extend(shadows.map(|shadows| {
+                let cast = move || Answer::Shadowed(cast_shadows(tree, shadows));
+                Variant::new(name, Work::Any, shadows.len(), cast)
+            }));
+        }
         variants.into_iter().map(|variant| variant.of(&program)).collect()
     }
 }
@@ -131,6 +145,23 @@ fn cast_singles(tree: &Tree, rays: &Rays, hits: &Hits) {
             hits.store(index, packet.triangle[0], packet.far[0]);
         }
     });
+}
+
+/// Row by row, as ours are.
+fn cast_shadows(tree: &Tree, shadows: &ShadowRays) -> Vec<bool> {
+    let width = shadows.window.width() as usize;
+    let mut occluded = vec![false; shadows.rays.len()];
+    for_each_row(&mut occluded, width, &|| (), |row, pixels| {
+        let mut call = Call::coherent();
+        let mut ray = Packet::<1>::from([0.0; 3]);
+        for (occluded, own) in pixels.iter_mut().zip(&shadows.rays[row * width..]) {
+            if let Some(own) = own {
+                ray.reach(own.origin, own.direction, [own.near, own.far]);
+                *occluded = tree.is_occluded(&mut call, &mut ray);
+            }
+        }
+    });
+    occluded
 }
 
 fn cast_packets<const N: usize>(tree: &Tree, rays: &Rays, hits: &Hits) {

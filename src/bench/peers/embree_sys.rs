@@ -79,11 +79,12 @@ struct Functions {
 type One = unsafe extern "C" fn(Handle, *mut c_void, *mut c_void);
 type Many = unsafe extern "C" fn(*const i32, Handle, *mut c_void, *mut c_void);
 
-/// The calls that cast 1, 8 and 16 rays. Version 3 takes the context before the rays, version 4
+/// The calls that cast 1, 8 and 16 rays, and that ask of 1 whether it meets anything. Version 3 takes the context before the rays, version 4
 /// arguments after them.
 #[derive(Clone, Copy)]
 struct Cast {
     one: One,
+    occluded: One,
     eight: Many,
     sixteen: Many,
     is_version_3: bool,
@@ -162,6 +163,16 @@ impl<const N: usize> Packet<N> {
     }
 }
 
+impl Packet<1> {
+    /// Makes it a ray between two ends that has hit nothing.
+    #[inline(always)]
+    pub(super) fn reach(&mut self, origin: [f32; 3], direction: [f32; 3], [near, far]: [f32; 2]) {
+        self.origin = origin.map(|c| [c]);
+        self.aim(0, direction);
+        (self.near, self.far) = ([near], [far]);
+    }
+}
+
 /// Which lanes of a packet are rays: −1, else 0.
 #[repr(C, align(64))]
 pub(super) struct Lanes<const N: usize>(pub(super) [i32; N]);
@@ -228,6 +239,7 @@ impl Embree {
             attach_geometry: symbol!(library, "rtcAttachGeometry"),
             cast: Cast {
                 one: symbol!(library, "rtcIntersect1"),
+                occluded: symbol!(library, "rtcOccluded1"),
                 eight: symbol!(library, "rtcIntersect8"),
                 sixteen: symbol!(library, "rtcIntersect16"),
                 is_version_3: false,
@@ -309,7 +321,7 @@ pub(super) struct Tree {
     _indices: Vec<u32>,
 }
 
-// Only `closest` and `has_16_lanes` use a shared tree, and Embree allows both from any thread.
+// Only `closest`, `is_occluded` and `has_16_lanes` use a shared tree, and Embree allows both from any thread.
 unsafe impl Send for Tree {}
 unsafe impl Sync for Tree {}
 
@@ -328,7 +340,7 @@ impl Tree {
         packet: &mut Packet<N>,
     ) {
         const { assert!(N == 1 || N == 8 || N == 16) };
-        let Cast { one, eight, sixteen, is_version_3 } = self.functions.cast;
+        let Cast { one, eight, sixteen, is_version_3, .. } = self.functions.cast;
         let rays = ptr::from_mut(packet).cast();
         let (second, third) = match is_version_3 {
             true => (ptr::from_mut(&mut call.context).cast(), rays),
@@ -342,6 +354,23 @@ impl Tree {
                 _ => sixteen(valid, self.scene, second, third),
             }
         }
+    }
+}
+
+impl Tree {
+    /// Whether a ray meets anything between its ends. `RTCRay` is how `RTCRayHit` begins, and the
+    /// arguments of both calls have one layout.
+    #[inline(always)]
+    pub(super) fn is_occluded(&self, call: &mut Call, ray: &mut Packet<1>) -> bool {
+        let Cast { occluded, is_version_3, .. } = self.functions.cast;
+        let rays = ptr::from_mut(ray).cast();
+        let (second, third) = match is_version_3 {
+            true => (ptr::from_mut(&mut call.context).cast(), rays),
+            false => (rays, ptr::from_mut(&mut call.arguments).cast()),
+        };
+        unsafe { occluded(self.scene, second, third) };
+        // The end of a ray that is occluded becomes −∞.
+        ray.far[0] < 0.0
     }
 }
 

@@ -1,6 +1,7 @@
 //! A report as one JSON document with stable keys, which a later one can be compared with.
 
 use crate::bench::baseline::Compared;
+use crate::bench::counters::Counters;
 use crate::bench::kernels::TreeFigures;
 use crate::bench::rivalry::{Rivalry, price_of_proof, rivalries};
 use crate::bench::rounds::Row;
@@ -47,6 +48,7 @@ fn scene(measured: &Measured) -> Value {
         "rows": measured.rows.iter().map(|r| row(measured, r)).collect::<Vec<_>>(),
         "rivalries": rivalries(&measured.rows).iter().map(rivalry).collect::<Vec<_>>(),
         "price_of_proof": price_of_proof(&measured.rows),
+        "counters": measured.counters.iter().map(counters).collect::<Vec<_>>(),
         "left_out": measured.left_out,
     })
 }
@@ -60,6 +62,12 @@ fn tree(figures: &TreeFigures) -> Value {
         "bytes_per_triangle": figures.bytes_per_triangle,
         "surface_area_cost": figures.surface_area_cost,
     })
+}
+
+fn counters(counters: &Counters) -> Value {
+    let counts = counters.counts.iter();
+    let counts = counts.map(|&(what, count)| (what.replace(' ', "_"), json!(count)));
+    json!({ "name": counters.name, "counts": counts.collect::<serde_json::Map<_, _>>() })
 }
 
 fn row(measured: &Measured, row: &Row) -> Value {

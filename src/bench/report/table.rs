@@ -89,6 +89,7 @@ fn scene(text: &mut String, measured: &Measured) {
             tree.preset, tree.nodes, tree.depth, tree.bytes_per_triangle, cost
         );
     }
+    count(text, measured);
     let _ = writeln!(
         text,
         "{:<27} {:>12} {:>10} {:>12} {:>22}",
@@ -109,6 +110,18 @@ fn scene(text: &mut String, measured: &Measured) {
             levels.exact,
             all / subject.resolution.window().len() as f64
         );
+    }
+}
+
+/// What kernels do, per pixel of the frame.
+fn count(text: &mut String, measured: &Measured) {
+    let pixels = measured.subject.resolution.window().len() as f64;
+    let _ = writeln!(text, "per pixel, counted on the lowest instruction set");
+    for counters in &measured.counters {
+        let counts = counters.counts.iter();
+        let per_pixel: Vec<String> =
+            counts.map(|&(what, count)| format!("{:.3} {what}", count as f64 / pixels)).collect();
+        let _ = writeln!(text, "{:<27} {}", counters.name, per_pixel.join(", "));
     }
 }
 

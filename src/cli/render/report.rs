@@ -7,6 +7,7 @@ use crate::cli::prediction::{path_name, predictions_document, preset_name};
 use serde_json::json;
 use std::time::Duration;
 use truecast::pixel::Window;
+use truecast::raster::Unproven;
 use truecast::render::visible::SubsampleGrid;
 use truecast::render::{Account, Accuracy, Prediction, RenderOptions, TreeSource};
 use truecast::scene::Scene;
@@ -171,7 +172,11 @@ impl Report<'_> {
             "schema": "truecast/render/1",
             "scene": arguments.scene.as_ref().map(|path| path.display().to_string()),
             "path": path_name(options.path),
-            "path_chosen_by": if arguments.path.is_some() { "user" } else { "prediction" },
+            "path_chosen_by": match (arguments.path, accuracy.path()) {
+                (Some(_), _) => "user",
+                (None, Some(_)) => "accuracy",
+                (None, None) => "prediction",
+            },
             "preset": account.tree_bytes.map(|_| preset_name(options.preset)),
             "bvh_source": account.tree_source.map(|source| match source {
                 TreeSource::Built => "built",
@@ -188,8 +193,10 @@ impl Report<'_> {
             },
             "accuracy": accuracy.name(),
             "subpixel_bits": match accuracy {
-                Accuracy::Exact => None,
-                Accuracy::Watertight { subpixel_bits, .. } => Some(subpixel_bits.get()),
+                Accuracy::Raster(Unproven::Watertight { subpixel_bits, .. }) => {
+                    Some(subpixel_bits.get())
+                }
+                _ => None,
             },
             "width": frame.width(),
             "height": frame.height(),

@@ -3,6 +3,7 @@
 use super::{cameras, on_ray};
 use crate::mesh::TriangleId;
 use crate::pixel::{Pixel, Window};
+use crate::raster::arithmetic::Certain;
 use crate::raster::blocks::BlockGrid;
 use crate::raster::exact::ExactTriangle;
 use crate::raster::frame::Frame;
@@ -79,7 +80,7 @@ fn hunt<S: Simd>(simd: S, scene: &Scene, aim: Pixel, side: u32, worst: &mut Wors
         let hard = hard_lanes(simd, &frame, &images.plane(simd, &frame, &corners));
         let lanes = 0xff & !hard;
         let all = f32::NEG_INFINITY;
-        let lanes = rows.set_up::<S, true>(simd, &frame, &tile_frame, &corners, lanes, all);
+        let lanes = rows.set_up::<S, Certain>(simd, &frame, &tile_frame, &corners, lanes, all);
         for lane in (0..OCTET).filter(|lane| lanes >> lane & 1 == 1) {
             let id = TriangleId::new(first + lane as u32);
             let Some(exact) = ExactTriangle::new(&plane, scene.mesh.triangle(id)) else {

@@ -42,8 +42,8 @@ impl DepthFormat {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DepthBuffer {
     format: DepthFormat,
-    near: f64,
-    far: f64,
+    pub(in crate::raster) near: f64,
+    pub(in crate::raster) far: f64,
 }
 
 impl DepthBuffer {
@@ -75,7 +75,7 @@ impl DepthBuffer {
 
     /// What is stored for a depth z along the view axis: a whole number of steps for D16 and D24,
     /// a number from 0 to 1 for D32.
-    pub(super) fn stored(&self, z: f64) -> f64 {
+    pub(in crate::raster) fn stored(&self, z: f64) -> f64 {
         let depth = self.far / (self.far - self.near) * (1.0 - self.near / z);
         let depth = depth.clamp(0.0, 1.0);
         match self.format {

@@ -1,13 +1,15 @@
 //! One tile of the watertight rasterizer: pieces in the order of ids, into a z-buffer, f32 or of few bits.
 
+use super::Snapped;
 use super::depth_buffer::DepthBuffer;
 use super::projection::Projector;
-use super::snapped::{Piece, Scannable, sample};
+use super::snapped::{Scannable, sample};
 use crate::mesh::Barycentric;
 use crate::pixel::{Pixel, Window};
 use crate::raster::bounds::Rectangle;
-use crate::raster::tile_lists::{Listed, TileLists};
-use crate::visibility::{Counting, Facing, Level, VisibilityTile, Visible};
+use crate::raster::strips::Strip;
+use crate::raster::tile_lists::Listed;
+use crate::visibility::{Counting, Cover, Facing, Level, LevelCounts, VisibilityTile, Visible};
 
 /// What is compared: interpolated depths as they are, or as a depth buffer stores them.
 pub(super) struct DepthTest {
@@ -38,14 +40,54 @@ struct Fragment {
 
 /// Everything visible in one tile.
 pub(super) fn rasterize_tile(
-    projector: &Projector<'_>,
-    test: &DepthTest,
-    pieces: &[Piece],
-    lists: &TileLists,
+    snapped: &Snapped<'_>,
     counting: Counting,
     window: Window,
 ) -> VisibilityTile {
+    let Snapped { projector, test, pieces, .. } = snapped;
     let mut tile = VisibilityTile::empty(window, counting);
+    let fragments = draw(snapped, window, &mut tile.cover, &mut tile.levels);
+    for (index, fragment) in fragments.iter().enumerate() {
+        tile.visible[index] = fragment.and_then(|fragment| {
+            let piece = &pieces[fragment.piece as usize];
+            let scannable = piece.scannable(projector.orientation)?;
+            let tie = fragment.tie && test.buffer.is_some();
+            let seen = answer(projector, &scannable, window.pixel(index), fragment.depth);
+            Some(Visible { tie, ..seen })
+        });
+    }
+    tile
+}
+
+/// Writes a tile's ids and t.
+pub(super) fn write_nearest(
+    snapped: &Snapped<'_>,
+    window: Window,
+    ids: &mut Strip<'_, u32>,
+    t: &mut Strip<'_, f32>,
+) {
+    let fragments = draw(snapped, window, &mut [], &mut LevelCounts::default());
+    for (pixel, fragment) in window.pixels().zip(fragments) {
+        let (id, depth) = match fragment {
+            None => (u32::MAX, f32::INFINITY),
+            Some(Fragment { piece, depth, .. }) => {
+                let t = snapped.projector.ray_parameter(depth) as f32;
+                (snapped.pieces[piece as usize].id.get(), t)
+            }
+        };
+        ids.row_from(pixel)[0] = id;
+        t.row_from(pixel)[0] = depth;
+    }
+}
+
+/// The nearest pieces of one tile; counts where there is room to.
+fn draw(
+    snapped: &Snapped<'_>,
+    window: Window,
+    cover: &mut [Cover],
+    levels: &mut LevelCounts,
+) -> Vec<Option<Fragment>> {
+    let Snapped { projector, test, pieces, lists } = snapped;
     let mut fragments: Vec<Option<Fragment>> = vec![None; window.len()];
     for listed in lists.of(window) {
         let (Listed::Small(number) | Listed::Large(number, _)) = listed;
@@ -54,7 +96,7 @@ pub(super) fn rasterize_tile(
         let Some(pixels) = piece.pixels(projector.subpixel_bits, window) else { continue };
         scan(projector, &scannable, pixels, |pixel, values| {
             let index = window.index(pixel);
-            if let Some(cover) = tile.cover.get_mut(index) {
+            if let Some(cover) = cover.get_mut(index) {
                 cover.crossed += 1;
                 cover.signed += scannable.volume_sign;
             }
@@ -69,18 +111,9 @@ pub(super) fn rasterize_tile(
                 nearest => *nearest = Some(Fragment { piece: number, depth, rank, tie: false }),
             }
         });
-        tile.levels.single += pixels.len();
+        levels.single += pixels.len();
     }
-    for (index, fragment) in fragments.iter().enumerate() {
-        tile.visible[index] = fragment.and_then(|fragment| {
-            let piece = &pieces[fragment.piece as usize];
-            let scannable = piece.scannable(projector.orientation)?;
-            let tie = fragment.tie && test.buffer.is_some();
-            let seen = answer(projector, &scannable, window.pixel(index), fragment.depth);
-            Some(Visible { tie, ..seen })
-        });
-    }
-    tile
+    fragments
 }
 
 /// Calls `covered` with the values of the edge functions at every covered sample of a rectangle.

@@ -67,6 +67,28 @@ fn embree_answers_where_it_is_installed_and_is_noted_where_not() {
     assert!(rows.iter().all(|(_, wrong)| *wrong <= AT_EDGES), "{rows:?}");
 }
 
+/// Points and rays rounded to f32 see other occluders at few pixels, and the same at all others.
+#[cfg(feature = "embree")]
+#[test]
+fn embree_answers_about_shadows() {
+    let folder = TempDir::new().unwrap();
+    let scene = scene_file("effect-shadows.toml");
+    let mut arguments = vec!["bench", scene.to_str().unwrap(), "--json", "--work", "any"];
+    arguments.extend(SMALL.iter().flatten());
+    let (status, stdout, stderr) = truecast(folder.path(), &arguments);
+    assert_eq!(status, 0, "{stderr}");
+    let report: Value = serde_json::from_str(&stdout).unwrap();
+    let rows = rows_of(&report, "Embree");
+    if rows.is_empty() {
+        let left_out = report["scenes"][0]["left_out"].as_array().unwrap();
+        assert!(left_out[0].as_str().unwrap().starts_with("Embree is not measured"));
+        return;
+    }
+    let names: Vec<&str> = rows.iter().map(|(name, _)| &**name).collect();
+    assert_eq!(names, ["shadow Embree", "shadow Embree, robust"]);
+    assert!(rows.iter().all(|(_, wrong)| *wrong <= AT_EDGES), "{rows:?}");
+}
+
 #[cfg(feature = "embree")]
 #[test]
 fn a_library_that_is_none_cannot_be_read() {
