@@ -43,7 +43,7 @@ impl Answerer {
     }
 
     /// What it does, as progress calls it, and the side of its tiles in pixels.
-    const fn stage(&self) -> (&'static str, u32) {
+    pub(super) const fn stage(&self) -> (&'static str, u32) {
         match self {
             Self::Cast(_) => ("cast", cast::TILE_SIDE),
             Self::Raster | Self::Watertight(..) => ("rasterize", raster::TILE_SIDE),

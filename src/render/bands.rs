@@ -1,16 +1,19 @@
-//! A frame in bands of rows: each is seen, shaded and laid out before the next, so that a whole
-//! frame of visible triangles, radiances and planes is never held.
+//! A frame in bands of rows: each is seen, shaded and laid out by one thread while it lies in its
+//! cache, in memory that the band before left, so that a whole frame of visible triangles, radiances
+//! and planes is never held.
 //!
-//! What the bands share is made once: tree, occluders, description. No bit of the film depends on
-//! where bands end; every stage works on all threads.
+//! What the bands share is made once: tree, sorted triangles, occluders, description. No bit of the
+//! film depends on where bands end. A thread without a band takes part in those of others.
 
-use super::answerer::Answerer;
-use super::develop::develop_described;
-use super::expose::{Occluders, expose_with, occluders};
+use super::describe;
+use super::develop::{blank, develop_into};
+use super::expose::{Exposure, Occluders, expose_into, occluders};
+use super::eye::Eye;
+use super::in_order::InOrder;
 use super::visible::list_visible;
 use super::{
-    Account, Accuracy, PlaneGroup, Progress, RenderOptions, Unwatched, VisibilityPath, cached_tree,
-    describe,
+    Account, Accuracy, Answerer, PlaneGroup, Progress, RenderOptions, Unwatched, VisibilityPath,
+    cached_tree,
 };
 use crate::accel::Accelerator;
 use crate::film::Film;
@@ -18,18 +21,21 @@ use crate::pixel::Window;
 use crate::scene::Scene;
 use crate::shade::Effects;
 use crate::visibility::{Counting, VisibilityBuffer};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-/// Rows of a band for each thread, and the number that all bands' rows are a multiple of: two rows of
-/// every path's tiles, which are what threads share, and four of a file's blocks.
+/// The number that all bands' rows are a multiple of: a row of every path's tiles, and two of a
+/// file's blocks.
 ///
-/// What is held of a pixel is about 190 bytes (64 of visibility, 32 of colour, 4 per plane): 46 MB of
-/// 128 rows of 1920, memory that the next band finds warm. Written to fresh memory, a whole frame of
-/// 1920 × 1080 costs 0.13 s in page faults alone.
-const BAND_ROWS: u32 = 64;
+/// What is held of a pixel is about 190 bytes (48 of visibility, 32 of colour, 4 per plane): 6 MB of
+/// 1920 colour pixels' rows. Written to fresh memory, a whole frame of 1920 × 1080 costs 0.13 s in page
+/// faults alone.
+const BAND_ROWS: u32 = 32;
 
-/// Pixels of a rasterizer's band for each triangle of the scene, at least. A triangle outside the band
-/// costs about 12 ns, the 190 bytes of a pixel 60 ns where they are written for the first time.
+/// Pixels of a band for each triangle of the scene, at least, where every band looks at every triangle.
+/// One outside the band costs about 12 ns, the 190 bytes of a pixel 60 ns where they are written for
+/// the first time.
 const PIXELS_PER_TRIANGLE: usize = 4;
 
 /// A frame that is ready to be made.
@@ -41,7 +47,14 @@ pub(super) struct Ready<'a> {
     /// A tree for shadows, where the path has none.
     occluders: Occluders,
     effects: Effects,
-    pub(super) account: Account,
+    account: Account,
+}
+
+/// Memory of one band, which the next takes over.
+struct Room {
+    buffer: VisibilityBuffer,
+    exposure: Exposure,
+    film: Film,
 }
 
 impl<'a> Ready<'a> {
@@ -53,7 +66,6 @@ impl<'a> Ready<'a> {
         let window = options.window.unwrap_or(scene.camera.resolution().window());
         let effects = Effects::of(scene);
         let mut account = Account::default();
-        let started = Instant::now();
         let tree = |account: &mut Account| {
             progress.begin("build", 1);
             let made = cached_tree(&scene.mesh, options.preset, options.bvh_cache.as_deref());
@@ -62,108 +74,162 @@ impl<'a> Ready<'a> {
             account.tree_remark = made.remark;
             made.accelerator
         };
-        let answerer = match options.accuracy {
-            Accuracy::Exact => match options.path {
-                VisibilityPath::Cast => Answerer::Cast(tree(&mut account)),
-                VisibilityPath::Raster => Answerer::Raster,
-            },
-            Accuracy::Watertight { subpixel_bits, depth_buffer } => {
-                Answerer::Watertight(subpixel_bits, depth_buffer)
-            }
+        let build = || {
+            let started = Instant::now();
+            let answerer = match options.accuracy {
+                Accuracy::Exact => match options.path {
+                    VisibilityPath::Cast => Answerer::Cast(tree(&mut account)),
+                    VisibilityPath::Raster => Answerer::Raster,
+                },
+                Accuracy::Watertight { subpixel_bits, depth_buffer } => {
+                    Answerer::Watertight(subpixel_bits, depth_buffer)
+                }
+            };
+            let occluders = occluders(&answerer, effects, || tree(&mut account));
+            (answerer, occluders, started.elapsed())
         };
-        let occluders = occluders(&answerer, effects, || tree(&mut account));
-        account.times.build = started.elapsed();
+        let tell = || {
+            let started = Instant::now();
+            (describe(scene, options.accuracy).to_string(), started.elapsed())
+        };
+        let ((answerer, occluders, building), (description, describing)) = rayon::join(build, tell);
+        account.times.build = building;
+        account.times.describing = describing;
+        account.description = description;
         account.mesh_bytes = scene.mesh.bytes();
         account.tree_bytes = occluders.of(&answerer).map(Accelerator::bytes);
-        let started = Instant::now();
-        account.description = describe(scene, options.accuracy).to_string();
-        account.times.describing = started.elapsed();
         Self { scene, options, window, answerer, occluders, effects, account }
     }
 
-    /// The bands of the window; a list of visible triangles needs the whole window. The rasterizer
-    /// looks at every triangle in every band.
+    /// The bands of the window; a list of visible triangles needs the whole window.
     fn bands(&self) -> Vec<Window> {
         if self.options.listing.is_some() {
             return vec![self.window];
         }
-        let least = match self.answerer {
-            Answerer::Cast(_) => 1,
-            Answerer::Raster | Answerer::Watertight(..) => {
-                PIXELS_PER_TRIANGLE * self.scene.mesh.len()
-            }
+        // The samples beside the centres are asked for band by band.
+        let sorts_anew = match self.answerer {
+            Answerer::Cast(_) => false,
+            Answerer::Raster => self.effects.has(Effects::SUPERSAMPLING),
+            _ => true,
+        };
+        let least = match sorts_anew || self.options.planes.has(PlaneGroup::Stable) {
+            true => PIXELS_PER_TRIANGLE * self.scene.mesh.len(),
+            false => 1,
         };
         let least = least.div_ceil(self.window.width() as usize);
-        let rows = least.max(BAND_ROWS as usize * rayon::current_num_threads());
-        let rows =
-            u32::try_from(rows).ok().and_then(|rows| rows.checked_next_multiple_of(BAND_ROWS));
+        let rows = u32::try_from(least).ok();
+        let rows = rows.and_then(|rows| rows.checked_next_multiple_of(BAND_ROWS));
         let rows = rows.unwrap_or(u32::MAX);
         super::subsamples::bands(self.scene, self.window, rows)
     }
 
-    /// Makes the film of a band, and says what was visible.
-    pub(super) fn make(
-        &mut self,
-        band: Window,
-        progress: &dyn Progress,
-    ) -> (Film, VisibilityBuffer) {
-        let Self { scene, answerer, effects, .. } = self;
+    fn eye(&self) -> Eye<'_> {
         let counting = match self.options.planes.has(PlaneGroup::Cover) {
             true => Counting::All,
             false => Counting::Nearest,
         };
+        Eye::new(self.scene, &self.answerer, self.window, counting)
+    }
+
+    fn room(&self) -> Room {
+        let Self { scene, options, window, account, .. } = self;
+        Room {
+            buffer: VisibilityBuffer::unseen(*window),
+            exposure: Exposure::default(),
+            film: blank(scene, *window, &options.planes, account.description.clone()),
+        }
+    }
+
+    /// Makes the film of a band, and says what there is to be said of it.
+    fn make(
+        &self,
+        eye: &Eye<'_>,
+        band: Window,
+        room: &mut Room,
+        progress: &dyn Progress,
+    ) -> Account {
+        let Self { scene, answerer, effects, .. } = self;
+        let Room { buffer, exposure, film } = room;
+        let mut account = Account::default();
         let started = Instant::now();
-        let buffer = answerer.see(scene, band, counting, progress);
+        eye.see(band, buffer, progress);
         let seen = Instant::now();
-        let layers = answerer.see_through(scene, &buffer, progress);
+        let layers = match effects.has(Effects::OPACITY) {
+            true => Some(answerer.see_through(scene, buffer, progress)),
+            false => None,
+        };
         let occluders = self.occluders.of(answerer);
-        let exposure =
-            expose_with(scene, answerer, occluders, (&buffer, &layers), *effects, progress);
+        let asked = (&*buffer, layers.as_ref());
+        expose_into(scene, answerer, occluders, asked, *effects, exposure, progress);
         let exposed = Instant::now();
-        let film = develop_described(
-            scene,
-            &buffer,
-            &exposure.radiance,
-            &exposure.alpha,
-            &self.options.planes,
-            self.account.description.clone(),
-        );
-        let account = &mut self.account;
-        account.times.developing += exposed.elapsed();
-        account.times.shading += exposed - seen;
-        account.times.visibility += seen - started;
-        account.covered_pixels += buffer.covered_pixels();
-        account.levels.add(buffer.levels);
-        account.notes.add(exposure.notes);
-        (film, buffer)
+        develop_into(scene, buffer, exposure, &self.options.planes, film);
+        account.covered_pixels = buffer.covered_pixels();
+        account.levels = buffer.levels;
+        account.notes = exposure.notes;
+        account.times.developing = exposed.elapsed();
+        account.times.shading = exposed - seen;
+        account.times.visibility = seen - started;
+        account
     }
 
     /// The whole window at once.
     pub(super) fn whole(mut self, progress: &dyn Progress) -> (Film, Account) {
-        let (film, buffer) = self.make(self.window, progress);
-        self.list(&buffer, progress);
-        (film, self.account)
+        let mut room = self.room();
+        let made = self.make(&self.eye(), self.window, &mut room, progress);
+        self.account.add(&made, 1);
+        self.list(&room.buffer, progress);
+        (room.film, self.account)
     }
 
-    /// Band by band, from the top.
-    pub(super) fn in_bands<E>(
+    /// Band by band: `work` on every band, side by side, and `take` what came of it, from the top.
+    pub(super) fn in_bands<T: Send, E: Send>(
         mut self,
         progress: &dyn Progress,
-        mut each: impl FnMut(Film) -> Result<(), E>,
+        work: impl Fn(&Film) -> Result<T, E> + Sync,
+        mut take: impl FnMut(T) -> Result<(), E> + Send,
     ) -> Result<Account, E> {
         let bands = self.bands();
-        if let [whole] = bands[..] {
-            let (film, buffer) = self.make(whole, progress);
-            self.list(&buffer, progress);
-            each(film)?;
-            return Ok(self.account);
+        if bands.len() == 1 {
+            let (film, account) = self.whole(progress);
+            take(work(&film)?)?;
+            return Ok(account);
         }
         progress.begin("render", bands.len());
-        for band in bands {
-            let (film, _) = self.make(band, &Unwatched);
-            each(film)?;
-            progress.step();
+        let eye = self.eye();
+        // The first fault from the top, and whether any band has one.
+        let mut fault = None;
+        let has_fault = AtomicBool::new(false);
+        let results = InOrder::new(|result: Result<T, E>| {
+            if fault.is_none()
+                && let Err(error) = result.and_then(&mut take)
+            {
+                has_fault.store(true, Ordering::Relaxed);
+                fault = Some(error);
+            }
+        });
+        let next = AtomicUsize::new(0);
+        let total = Mutex::new(Account::default());
+        rayon::broadcast(|threads| {
+            let mut room = self.room();
+            loop {
+                let number = next.fetch_add(1, Ordering::Relaxed);
+                let Some(&band) = bands.get(number) else { break };
+                if has_fault.load(Ordering::Relaxed) {
+                    break;
+                }
+                let made = self.make(&eye, band, &mut room, &Unwatched);
+                results.put(number, work(&room.film));
+                let mut total = total.lock().unwrap_or_else(PoisonError::into_inner);
+                total.add(&made, threads.num_threads());
+                progress.step();
+            }
+        });
+        drop(results);
+        drop(eye);
+        if let Some(error) = fault {
+            return Err(error);
         }
+        self.account.add(&total.into_inner().unwrap_or_else(PoisonError::into_inner), 1);
         Ok(self.account)
     }
 

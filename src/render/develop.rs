@@ -5,11 +5,13 @@
 //! `invalid`, which speaks of the background's colour too. Values are rounded to f32 once, here.
 //! All planes of a row are filled at once, while what is visible there is at hand.
 
-use super::plane_rows::{PlaneRow, cut_rows, empty_planes};
+use super::expose::Exposure;
+use super::plane_rows::{PlaneRow, cut_rows, no_samples, resize};
 use super::surface_planes::SurfaceRow;
 use super::{Accuracy, PlaneGroup, PlaneGroups, describe};
 use crate::color::LinearRgb;
 use crate::film::{Film, Plane, Samples};
+use crate::pixel::Window;
 use crate::raster::{STANDARD_HALF_WIDTH, stability};
 use crate::scene::Scene;
 use crate::shade::{Effects, doubt, doubts};
@@ -31,60 +33,78 @@ pub fn develop(
     accuracy: Accuracy,
 ) -> Film {
     let description = describe(scene, accuracy).to_string();
-    develop_described(scene, buffer, radiance, alpha, groups, description)
+    let mut film = blank(scene, buffer.window, groups, description);
+    lay_out(scene, buffer, (radiance, alpha), groups, &mut film);
+    film
 }
 
-/// [`develop`] with a description at hand, which takes a look at the whole scene.
-pub(super) fn develop_described(
+/// A film with the planes that are asked for, without any sample.
+pub(super) fn blank(
     scene: &Scene,
-    buffer: &VisibilityBuffer,
-    radiance: &[LinearRgb],
-    alpha: &[f64],
+    window: Window,
     groups: &PlaneGroups,
     description: String,
 ) -> Film {
+    let named = asked(scene, groups).into_iter().flat_map(|group| {
+        let named = group.planes().iter();
+        named.map(move |name| Plane { name: (*name).to_owned(), samples: no_samples(group) })
+    });
+    Film { resolution: scene.camera.resolution(), window, planes: named.collect(), description }
+}
+
+/// [`develop`] into a film that [`blank`] made, or that was developed before: its memory is kept.
+pub(super) fn develop_into(
+    scene: &Scene,
+    buffer: &VisibilityBuffer,
+    exposure: &Exposure,
+    groups: &PlaneGroups,
+    film: &mut Film,
+) {
+    lay_out(scene, buffer, (&exposure.radiance, &exposure.alpha), groups, film);
+}
+
+fn asked(scene: &Scene, groups: &PlaneGroups) -> Vec<PlaneGroup> {
     let is_asked = |group: &PlaneGroup| {
         *group != PlaneGroup::TextureCoordinates
             || !scene.mesh.uvs.is_empty()
             || groups.iter().count() == 1
     };
-    let asked: Vec<PlaneGroup> = groups.iter().filter(is_asked).collect();
-    let size = buffer.window.len();
-    let mut samples: Vec<Vec<Samples>> =
-        asked.iter().map(|&group| empty_planes(group, size)).collect();
+    groups.iter().filter(is_asked).collect()
+}
+
+fn lay_out(
+    scene: &Scene,
+    buffer: &VisibilityBuffer,
+    (radiance, alpha): (&[LinearRgb], &[f64]),
+    groups: &PlaneGroups,
+    film: &mut Film,
+) {
+    let asked = asked(scene, groups);
+    film.window = buffer.window;
+    film.planes.iter_mut().for_each(|plane| resize(&mut plane.samples, buffer.window.len()));
     let width = buffer.window.width() as usize;
-    cut_rows(&asked, &mut samples, width).into_par_iter().enumerate().for_each(|(row, planes)| {
-        let range = row * width..(row + 1) * width;
-        let seen = Row {
-            scene,
-            y: buffer.window.y0() + row as u32,
-            x0: buffer.window.x0(),
-            visible: &buffer.visible[range.clone()],
-            radiance: &radiance[range.clone()],
-            alpha: &alpha[range.clone()],
-            crossed: buffer.cover.as_ref().map(|cover| &cover[range]),
-        };
-        seen.fill(planes);
-    });
-    for (group, samples) in asked.iter().zip(&mut samples) {
-        match group {
-            PlaneGroup::Stable => {
-                let stable = stability(scene, buffer, STANDARD_HALF_WIDTH, &|| ());
-                *samples = vec![Samples::Uint(stable.into_iter().map(u32::from).collect())];
-            }
-            PlaneGroup::Invalid => *samples = vec![invalid(scene, buffer, radiance)],
-            _ => {}
+    cut_rows(&asked, &mut film.planes, width).into_par_iter().enumerate().for_each(
+        |(row, planes)| {
+            let range = row * width..(row + 1) * width;
+            let seen = Row {
+                scene,
+                y: buffer.window.y0() + row as u32,
+                x0: buffer.window.x0(),
+                visible: &buffer.visible[range.clone()],
+                radiance: &radiance[range.clone()],
+                alpha: &alpha[range.clone()],
+                crossed: buffer.cover.as_ref().map(|cover| &cover[range]),
+            };
+            seen.fill(planes);
+        },
+    );
+    for plane in &mut film.planes {
+        if plane.name == PlaneGroup::Stable.name() {
+            let stable = stability(scene, buffer, STANDARD_HALF_WIDTH, &|| ());
+            plane.samples = Samples::Uint(stable.into_iter().map(u32::from).collect());
+        } else if plane.name == PlaneGroup::Invalid.name() {
+            plane.samples = invalid(scene, buffer, radiance);
         }
-    }
-    let named = asked.iter().zip(samples).flat_map(|(group, samples)| {
-        let named = group.planes().iter().zip(samples);
-        named.map(|(name, samples)| Plane { name: (*name).to_owned(), samples })
-    });
-    Film {
-        resolution: scene.camera.resolution(),
-        window: buffer.window,
-        planes: named.collect(),
-        description,
     }
 }
 

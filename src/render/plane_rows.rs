@@ -3,17 +3,25 @@
 //! Knows no meaning of any plane.
 
 use super::PlaneGroup;
-use crate::film::Samples;
+use crate::film::{Plane, Samples};
 
-/// The planes of a group, all 0; none of a group that fills its planes elsewhere.
-pub(super) fn empty_planes(group: PlaneGroup, size: usize) -> Vec<Samples> {
-    let count = group.planes().len();
+/// Samples of a group's planes, none yet.
+pub(super) const fn no_samples(group: PlaneGroup) -> Samples {
     match group {
-        PlaneGroup::Stable | PlaneGroup::Invalid => Vec::new(),
-        PlaneGroup::Identity | PlaneGroup::Cover | PlaneGroup::Verdict => {
-            (0..count).map(|_| Samples::Uint(vec![0; size])).collect()
-        }
-        _ => (0..count).map(|_| Samples::Float(vec![0.0; size])).collect(),
+        PlaneGroup::Identity
+        | PlaneGroup::Cover
+        | PlaneGroup::Verdict
+        | PlaneGroup::Stable
+        | PlaneGroup::Invalid => Samples::Uint(Vec::new()),
+        _ => Samples::Float(Vec::new()),
+    }
+}
+
+/// Makes room for so many samples; what they are is not told.
+pub(super) fn resize(samples: &mut Samples, size: usize) {
+    match samples {
+        Samples::Float(values) => values.resize(size, 0.0),
+        Samples::Uint(values) => values.resize(size, 0),
     }
 }
 
@@ -48,19 +56,20 @@ impl PlaneRow<'_> {
     }
 }
 
-/// Per row of `width` pixels the row of every group's planes.
+/// Per row of `width` pixels the row of every group's planes, which stand in the groups' order.
 pub(super) fn cut_rows<'a>(
     groups: &[PlaneGroup],
-    samples: &'a mut [Vec<Samples>],
+    planes: &'a mut [Plane],
     width: usize,
 ) -> Vec<Vec<(PlaneGroup, PlaneRow<'a>)>> {
-    let size = samples.iter().flatten().map(Samples::len).max().unwrap_or(0);
+    let size = planes.first().map_or(0, |plane| plane.samples.len());
     let empty = || groups.iter().map(|&group| (group, PlaneRow::default())).collect();
     let mut rows: Vec<Vec<(PlaneGroup, PlaneRow<'a>)>> =
         (0..size.div_ceil(width)).map(|_| empty()).collect();
-    for (position, planes) in samples.iter_mut().enumerate() {
-        for plane in planes {
-            match plane {
+    let mut planes = planes.iter_mut();
+    for (position, group) in groups.iter().enumerate() {
+        for plane in planes.by_ref().take(group.planes().len()) {
+            match &mut plane.samples {
                 Samples::Float(values) => {
                     for (row, values) in rows.iter_mut().zip(values.chunks_mut(width)) {
                         row[position].1.floats.push(values);
