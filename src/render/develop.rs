@@ -6,7 +6,7 @@
 //! All planes of a row are filled at once, while what is visible there is at hand.
 
 use super::expose::Exposure;
-use super::plane_rows::{PlaneRow, cut_rows, no_samples, resize};
+use super::plane_rows::{PlaneRow, cut, cut_rows, no_samples, resize};
 use super::surface_planes::SurfaceRow;
 use super::{Accuracy, PlaneGroup, PlaneGroups, describe};
 use crate::color::LinearRgb;
@@ -33,26 +33,30 @@ pub fn develop(
     accuracy: Accuracy,
 ) -> Film {
     let description = describe(scene, accuracy).to_string();
-    let mut film = blank(scene, buffer.window, groups, description);
+    let mut film = blank(scene, groups, description);
+    turn_to(&mut film, buffer.window);
     lay_out(scene, buffer, (radiance, alpha), groups, &mut film);
     film
 }
 
 /// A film with the planes that are asked for, without any sample.
-pub(super) fn blank(
-    scene: &Scene,
-    window: Window,
-    groups: &PlaneGroups,
-    description: String,
-) -> Film {
+pub(super) fn blank(scene: &Scene, groups: &PlaneGroups, description: String) -> Film {
+    let resolution = scene.camera.resolution();
     let named = asked(scene, groups).into_iter().flat_map(|group| {
         let named = group.planes().iter();
         named.map(move |name| Plane { name: (*name).to_owned(), samples: no_samples(group) })
     });
-    Film { resolution: scene.camera.resolution(), window, planes: named.collect(), description }
+    Film { resolution, window: resolution.window(), planes: named.collect(), description }
 }
 
-/// [`develop`] into a film that [`blank`] made, or that was developed before: its memory is kept.
+/// Gives a film another window and room for its samples; its memory is kept, and what it holds until
+/// the whole window is developed.
+pub(super) fn turn_to(film: &mut Film, window: Window) {
+    film.window = window;
+    film.planes.iter_mut().for_each(|plane| resize(&mut plane.samples, window.len()));
+}
+
+/// [`develop`] into a film with the same planes, of which `buffer` is a piece.
 pub(super) fn develop_into(
     scene: &Scene,
     buffer: &VisibilityBuffer,
@@ -80,36 +84,38 @@ fn lay_out(
     film: &mut Film,
 ) {
     let asked = asked(scene, groups);
-    film.window = buffer.window;
-    film.planes.iter_mut().for_each(|plane| resize(&mut plane.samples, buffer.window.len()));
     let width = buffer.window.width() as usize;
-    cut_rows(&asked, &mut film.planes, width).into_par_iter().enumerate().for_each(
-        |(row, planes)| {
-            let range = row * width..(row + 1) * width;
-            let seen = Row {
-                scene,
-                y: buffer.window.y0() + row as u32,
-                x0: buffer.window.x0(),
-                visible: &buffer.visible[range.clone()],
-                radiance: &radiance[range.clone()],
-                alpha: &alpha[range.clone()],
-                crossed: buffer.cover.as_ref().map(|cover| &cover[range]),
-            };
-            seen.fill(planes);
-        },
-    );
+    let rows = cut_rows(&asked, &mut film.planes, film.window, buffer.window);
+    rows.into_par_iter().enumerate().for_each(|(row, planes)| {
+        let range = row * width..(row + 1) * width;
+        let seen = Row {
+            scene,
+            y: buffer.window.y0() + row as u32,
+            x0: buffer.window.x0(),
+            visible: &buffer.visible[range.clone()],
+            radiance: &radiance[range.clone()],
+            alpha: &alpha[range.clone()],
+            crossed: buffer.cover.as_ref().map(|cover| &cover[range]),
+        };
+        seen.fill(planes);
+    });
     for plane in &mut film.planes {
-        if plane.name == PlaneGroup::Stable.name() {
+        let Samples::Uint(values) = &mut plane.samples else { continue };
+        let found: Vec<u32> = if plane.name == PlaneGroup::Stable.name() {
             let stable = stability(scene, buffer, STANDARD_HALF_WIDTH, &|| ());
-            plane.samples = Samples::Uint(stable.into_iter().map(u32::from).collect());
+            stable.into_iter().map(u32::from).collect()
         } else if plane.name == PlaneGroup::Invalid.name() {
-            plane.samples = invalid(scene, buffer, radiance);
-        }
+            invalid(scene, buffer, radiance)
+        } else {
+            continue;
+        };
+        let rows = cut(values, film.window, buffer.window).zip(found.chunks(width));
+        rows.for_each(|(row, found)| row.copy_from_slice(found));
     }
 }
 
 /// What the file holds decides about its range, not the centre's sample in f64.
-fn invalid(scene: &Scene, buffer: &VisibilityBuffer, radiance: &[LinearRgb]) -> Samples {
+fn invalid(scene: &Scene, buffer: &VisibilityBuffer, radiance: &[LinearRgb]) -> Vec<u32> {
     let mut bits = doubts(scene, buffer, Effects::of(scene));
     for (bits, rgb) in bits.iter_mut().zip(radiance) {
         *bits &= !doubt::BEYOND_RANGE;
@@ -117,7 +123,7 @@ fn invalid(scene: &Scene, buffer: &VisibilityBuffer, radiance: &[LinearRgb]) -> 
             *bits |= doubt::BEYOND_RANGE;
         }
     }
-    Samples::Uint(bits)
+    bits
 }
 
 /// What is known of a row of pixels.
