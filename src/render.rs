@@ -95,7 +95,8 @@ impl Default for RenderOptions {
 pub struct FrameTimes {
     /// Building the BVH (next to nothing on the raster path, unless shadows need one).
     pub build: Duration,
-    /// Describing what the picture is made of: a digest of the scene, mostly.
+    /// Describing what the picture is made of, a digest of the scene mostly: what it takes longer than
+    /// building, which goes on beside it.
     pub describing: Duration,
     /// Finding what is visible.
     pub visibility: Duration,

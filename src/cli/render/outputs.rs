@@ -98,7 +98,7 @@ pub(super) struct Outputs<'a> {
     pub(super) invalid: Option<usize>,
     /// Time that was spent on encoding: that of bands over the number of threads, then that of the rest.
     pub(super) encoding: Duration,
-    /// Time that was spent on writing, much of it while others rendered.
+    /// Time that was spent on writing, likewise.
     pub(super) writing_time: Duration,
 }
 
@@ -136,8 +136,9 @@ impl<'a> Outputs<'a> {
         if let Some(count) = band.invalid {
             self.invalid = Some(self.invalid.unwrap_or(0) + count);
         }
-        self.encoding += band.time / u32::try_from(rayon::current_num_threads()).unwrap_or(1);
-        self.writing_time += started.elapsed();
+        let threads = u32::try_from(rayon::current_num_threads()).unwrap_or(1);
+        self.encoding += band.time / threads;
+        self.writing_time += started.elapsed() / threads;
         Ok(())
     }
 
