@@ -95,8 +95,7 @@ impl Default for RenderOptions {
 pub struct FrameTimes {
     /// Building the BVH (next to nothing on the raster path, unless shadows need one).
     pub build: Duration,
-    /// Describing what the picture is made of, a digest of the scene mostly: what it takes longer than
-    /// building, which goes on beside it.
+    /// Describing what the picture is made of: a digest of the scene, mostly.
     pub describing: Duration,
     /// Finding what is visible.
     pub visibility: Duration,
@@ -144,11 +143,10 @@ pub struct Account {
 
 impl Account {
     /// Adds what is to be said of a part that was made beside `threads` − 1 others.
-    fn add(&mut self, part: &Self, threads: usize) {
+    fn add(&mut self, part: &Self, threads: u32) {
         self.covered_pixels += part.covered_pixels;
         self.levels.add(part.levels);
         self.notes.add(part.notes);
-        let threads = u32::try_from(threads).unwrap_or(u32::MAX);
         self.times.visibility += part.times.visibility / threads;
         self.times.shading += part.times.shading / threads;
         self.times.developing += part.times.developing / threads;

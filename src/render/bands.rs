@@ -23,8 +23,8 @@ use crate::scene::Scene;
 use crate::shade::Effects;
 use crate::visibility::{Counting, VisibilityBuffer};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Mutex, PoisonError};
-use std::time::Instant;
+use std::sync::{Mutex, OnceLock, PoisonError};
+use std::time::{Duration, Instant};
 
 /// The number that all bands' rows are a multiple of: a row of every path's tiles, and two of a
 /// file's blocks.
@@ -76,7 +76,7 @@ impl<'a> Ready<'a> {
             account.tree_remark = made.remark;
             made.accelerator
         };
-        let build = || {
+        let mut build = || {
             let started = Instant::now();
             let answerer = match options.accuracy {
                 Accuracy::Exact => match options.path {
@@ -90,14 +90,8 @@ impl<'a> Ready<'a> {
             let occluders = occluders(&answerer, effects, || tree(&mut account));
             (answerer, occluders, started.elapsed())
         };
-        let tell = || {
-            let started = Instant::now();
-            (describe(scene, options.accuracy).to_string(), started.elapsed())
-        };
-        let ((answerer, occluders, building), (description, describing)) = rayon::join(build, tell);
+        let (answerer, occluders, building) = build();
         account.times.build = building;
-        account.times.describing = describing;
-        account.description = description;
         account.mesh_bytes = scene.mesh.bytes();
         account.tree_bytes = occluders.of(&answerer).map(Accelerator::bytes);
         Self { scene, options, window, answerer, occluders, effects, account }
@@ -110,7 +104,7 @@ impl<'a> Ready<'a> {
             return vec![vec![self.window]];
         }
         // The samples beside the centres are asked for anew, and so is what is stable.
-        let looks_anew = matches!(self.answerer, Answerer::Watertight(..))
+        let looks_anew = !matches!(self.answerer, Answerer::Cast(_) | Answerer::Raster)
             || self.effects.has(Effects::SUPERSAMPLING)
             || self.options.planes.has(PlaneGroup::Stable);
         let least = match looks_anew {
@@ -137,12 +131,18 @@ impl<'a> Ready<'a> {
     }
 
     fn room(&self) -> Room {
-        let Self { scene, options, window, account, .. } = self;
+        let Self { scene, options, window, .. } = self;
         Room {
             buffer: VisibilityBuffer::unseen(*window),
             exposure: Exposure::default(),
-            film: blank(scene, &options.planes, account.description.clone()),
+            film: blank(scene, &options.planes, String::new()),
         }
+    }
+
+    /// The description of the film, and the time that it took.
+    fn describe(&self) -> (String, Duration) {
+        let started = Instant::now();
+        (describe(self.scene, self.options.accuracy).to_string(), started.elapsed())
     }
 
     /// Makes the film of a band, and says what there is to be said of it.
@@ -199,6 +199,8 @@ impl<'a> Ready<'a> {
         let mut room = self.room();
         let made = self.make(&self.eye(), &[self.window], &mut room, progress);
         self.account.add(&made, 1);
+        (self.account.description, self.account.times.describing) = self.describe();
+        room.film.description.clone_from(&self.account.description);
         self.list(&room.buffer, progress);
         (room.film, self.account)
     }
@@ -230,8 +232,14 @@ impl<'a> Ready<'a> {
             }
         });
         let next = AtomicUsize::new(0);
+        let threads = u32::try_from(rayon::current_num_threads()).unwrap_or(u32::MAX);
         let total = Mutex::new(Account::default());
-        rayon::broadcast(|threads| {
+        // One thread looks at the whole scene while the others begin.
+        let description = OnceLock::new();
+        rayon::broadcast(|thread| {
+            if thread.index() == 0 {
+                description.get_or_init(|| self.describe());
+            }
             let mut room = self.room();
             loop {
                 let number = next.fetch_add(1, Ordering::Relaxed);
@@ -240,9 +248,11 @@ impl<'a> Ready<'a> {
                     break;
                 }
                 let made = self.make(&eye, band, &mut room, &Unwatched);
+                let (description, _) = description.get_or_init(|| self.describe());
+                room.film.description.clone_from(description);
                 results.put(number, work(&room.film));
                 let mut total = total.lock().unwrap_or_else(PoisonError::into_inner);
-                total.add(&made, threads.num_threads());
+                total.add(&made, threads);
                 progress.step();
             }
         });
@@ -252,6 +262,10 @@ impl<'a> Ready<'a> {
             return Err(error);
         }
         self.account.add(&total.into_inner().unwrap_or_else(PoisonError::into_inner), 1);
+        if let Some((description, time)) = description.into_inner() {
+            self.account.description = description;
+            self.account.times.describing = time / threads;
+        }
         Ok(self.account)
     }
 

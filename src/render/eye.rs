@@ -11,9 +11,9 @@ use crate::visibility::{Counting, VisibilityBuffer};
 /// A frame that is ready to be seen.
 pub(super) enum Eye<'a> {
     /// By rays.
-    Cast(CastPicture<'a>, Counting),
+    Cast(Box<CastPicture<'a>>, Counting),
     /// By the rasterizer.
-    Raster(RasterPicture<'a>),
+    Raster(Box<RasterPicture<'a>>),
     /// By a path whose bands share nothing.
     Other(&'a Scene, &'a Answerer, Counting),
 }
@@ -29,11 +29,11 @@ impl<'a> Eye<'a> {
         match answerer {
             Answerer::Cast(accelerator) => {
                 let picture = CastPicture::new(scene, accelerator, CastOptions::default());
-                Self::Cast(picture, counting)
+                Self::Cast(Box::new(picture), counting)
             }
             Answerer::Raster => {
                 let options = RasterOptions::default();
-                Self::Raster(RasterPicture::new(scene, window, counting, options))
+                Self::Raster(Box::new(RasterPicture::new(scene, window, counting, options)))
             }
             other => Self::Other(scene, other, counting),
         }

@@ -83,12 +83,25 @@ impl<'a> Encoder<'a> {
     }
 }
 
+/// A path, the file that will stand there, and who writes it.
+type OpenExr = (PathBuf, AtomicFile, ExrWriter<File>);
+
+/// Completes and shows files.
+fn show(writing: &Writing, files: Vec<OpenExr>) -> Result<Vec<Written>, FilmError> {
+    let finish = |(path, mut file, writer): OpenExr| {
+        let length = file.with(|_| writer.finish())?;
+        output::finish(writing, file)?;
+        Ok(Written { path, bytes: usize::try_from(length).unwrap_or(usize::MAX), clipped: None })
+    };
+    files.into_iter().map(finish).collect()
+}
+
 /// The files so far, and what was counted.
 pub(super) struct Outputs<'a> {
     encoder: &'a Encoder<'a>,
     writing: &'a Writing,
     /// Each EXR file with its path.
-    exr: Vec<(PathBuf, AtomicFile, ExrWriter<File>)>,
+    exr: Vec<OpenExr>,
     codes: Vec<u8>,
     clipped: ClipCount,
     ids: Vec<u32>,
@@ -129,7 +142,10 @@ impl<'a> Outputs<'a> {
                 file.with(|_| writer.append(rows))?;
             }
         }
-        self.codes.extend(band.codes);
+        if self.codes.is_empty() && !band.codes.is_empty() {
+            self.codes.reserve_exact(3 * self.encoder.window.len());
+        }
+        self.codes.extend_from_slice(&band.codes);
         self.ids.extend(band.ids);
         self.clipped.add(band.clipped);
         self.infinite += band.infinite;
@@ -157,43 +173,44 @@ impl<'a> Outputs<'a> {
     /// cannot be encoded, so none is shown before.
     pub(super) fn write(&mut self) -> Result<Vec<Written>, Failure> {
         let started = Instant::now();
-        let Encoder { targets, window, .. } = *self.encoder;
-        let png = match self.encoder.has(Format::Png) {
-            false => Vec::new(),
-            true => {
-                let codes = std::mem::take(&mut self.codes);
-                let picture = image::RgbImage::from_raw(window.width(), window.height(), codes);
-                let misfit = "rows are missing".to_owned();
-                encode_picture(&picture.ok_or(FilmError::Inconsistent { reason: misfit })?)?
-            }
-        };
+        let codes = std::mem::take(&mut self.codes);
         let npy = match self.encoder.has(Format::Npy) {
             false => Vec::new(),
             true => self.encode_ids()?,
         };
+        // To show a file in place of another may take as long as encoding a PNG: file systems bring the
+        // new one to the disk first.
+        let exr = std::mem::take(&mut self.exr);
+        let writing = self.writing;
+        let (exr, png) = rayon::join(|| show(writing, exr), || self.encode_png(codes));
+        let (mut exr, png) = (exr?.into_iter(), png?);
         let encoded = Instant::now();
         self.encoding += encoded - started;
         let mut written = Vec::new();
-        let mut exr = std::mem::take(&mut self.exr).into_iter();
-        for (path, format) in targets {
+        for (path, format) in self.encoder.targets {
             let (bytes, clipped) = match format {
-                Format::Png => (&png, Some(self.clipped)),
-                Format::Npy => (&npy, None),
                 Format::Exr => {
-                    for (path, mut file, writer) in exr.by_ref().take(1) {
-                        let length = file.with(|_| writer.finish())?;
-                        output::finish(self.writing, file)?;
-                        let bytes = usize::try_from(length).unwrap_or(usize::MAX);
-                        written.push(Written { path, bytes, clipped: None });
-                    }
+                    written.extend(exr.next());
                     continue;
                 }
+                Format::Png => (&png, Some(self.clipped)),
+                Format::Npy => (&npy, None),
             };
             output::save(self.writing, path, bytes)?;
             written.push(Written { path: path.clone(), bytes: bytes.len(), clipped });
         }
         self.writing_time += encoded.elapsed();
         Ok(written)
+    }
+
+    fn encode_png(&self, codes: Vec<u8>) -> Result<Vec<u8>, FilmError> {
+        if !self.encoder.has(Format::Png) {
+            return Ok(Vec::new());
+        }
+        let (width, height) = (self.encoder.window.width(), self.encoder.window.height());
+        let picture = image::RgbImage::from_raw(width, height, codes);
+        let misfit = "rows are missing".to_owned();
+        encode_picture(&picture.ok_or(FilmError::Inconsistent { reason: misfit })?)
     }
 
     fn encode_ids(&mut self) -> Result<Vec<u8>, FilmError> {
