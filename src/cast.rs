@@ -46,6 +46,7 @@ use candidate::Candidate;
 use memo::{PicturePairs, SamePlane};
 use ray::View;
 use single::ShearedRay;
+use whole::Whole;
 
 /// Side of a tile, in pixels: neighbouring rays walk through the same nodes.
 pub const TILE_SIDE: u32 = 32;
@@ -88,12 +89,42 @@ pub fn cast_with(
     options: CastOptions,
     done: &(dyn Fn() + Sync),
 ) -> VisibilityBuffer {
+    let mut buffer = VisibilityBuffer::unseen(window);
+    cast_into(&CastPicture::new(scene, accelerator, options), window, counting, &mut buffer, done);
+    buffer
+}
+
+/// A picture that is ready to be cast, whole or in bands: what its pixels share is made once.
+pub struct CastPicture<'a> {
+    scene: &'a Scene,
+    accelerator: &'a Accelerator,
+    options: CastOptions,
+    whole: Whole<'a>,
+}
+
+impl<'a> CastPicture<'a> {
+    /// The picture of the scene's camera, with `accelerator` built over the scene's mesh.
+    pub fn new(scene: &'a Scene, accelerator: &'a Accelerator, options: CastOptions) -> Self {
+        Self { scene, accelerator, options, whole: Whole::new(scene, accelerator) }
+    }
+}
+
+/// As [`cast_with`], of a part of a picture, into a buffer that was used before: whatever it held is
+/// written over, and its memory is kept. Parts may be cast side by side.
+pub fn cast_into(
+    picture: &CastPicture<'_>,
+    window: Window,
+    counting: Counting,
+    buffer: &mut VisibilityBuffer,
+    done: &(dyn Fn() + Sync),
+) {
+    let CastPicture { scene, accelerator, options, whole } = picture;
     // Mistakes are planted in the decisions of single rays, unless they are of the tiles.
     let by_tiles = counting == Counting::Nearest && options.tiles && mutant::spares_tiles();
     if by_tiles {
-        whole::cast_whole(scene, accelerator, window, options, done)
+        whole::cast_whole(whole, window, *options, buffer, done);
     } else {
-        cast_rays(scene, accelerator, window, counting, options, done)
+        *buffer = cast_rays(scene, accelerator, window, counting, *options, done);
     }
 }
 

@@ -6,6 +6,7 @@
 
 mod srgb_buckets;
 mod srgb_levels;
+mod srgb_singles;
 mod srgb_thresholds;
 
 use srgb_levels::LEVELS;
@@ -22,6 +23,13 @@ pub type LinearRgb = [f64; 3];
 pub fn srgb_code(linear: f64) -> u8 {
     debug_assert!(!linear.is_nan(), "a picture value is not a number");
     srgb_buckets::count_thresholds(linear)
+}
+
+/// [`srgb_code`] of an f32, the same code and several times as quick.
+#[inline]
+pub fn srgb_code_of_single(linear: f32) -> u8 {
+    debug_assert!(!linear.is_nan(), "a picture value is not a number");
+    srgb_singles::count_thresholds(linear)
 }
 
 /// The linear value, in [0, 1], of an 8-bit sRGB code: EOTF(code/255), rounded once.

@@ -13,13 +13,12 @@ mod read;
 mod write;
 
 pub use self::error::FilmError;
-pub use self::exr::{ExrFilm, decode_exr, encode_exr};
+pub use self::exr::{ExrLayout, ExrRows, ExrWriter, decode_exr, encode_exr};
 pub use self::npy::encode_npy_ids;
 pub use self::png::{ClipCount, append_codes, encode_picture, encode_png, srgb_picture};
 pub use self::read::{NumberPlane, Numbers, PackedOrder, load_numbers};
 pub use self::write::{
-    Format, check_target, check_writable, format_of, load_exr, save, write_atomic,
-    write_atomic_with,
+    AtomicFile, Format, check_target, check_writable, format_of, load_exr, save, write_atomic,
 };
 
 use crate::pixel::{Resolution, Window};
@@ -85,9 +84,17 @@ impl Film {
                 _ => None,
             })
             .collect();
+        // Hardly any picture has one: whole planes are looked at, many values at a time.
+        if !colors.iter().any(|values| has_infinite(values)) {
+            return 0;
+        }
         let is_infinite = |index: &usize| {
             colors.iter().any(|values| values.get(*index).is_some_and(|value| value.is_infinite()))
         };
         (0..self.window.len()).filter(is_infinite).count()
     }
+}
+
+fn has_infinite(values: &[f32]) -> bool {
+    values.iter().fold(false, |any, value| any | value.is_infinite())
 }

@@ -162,6 +162,14 @@ impl Window {
             .collect()
     }
 
+    /// The window from the first column of this one to the last of `other`, which stands right of it, in
+    /// the same rows.
+    #[must_use]
+    pub fn joined(self, other: Window) -> Window {
+        debug_assert_eq!((self.y0, self.y1), (other.y0, other.y1));
+        Window { x1: other.x1, ..self }
+    }
+
     /// The window cut into tiles of at most `side` × `side` pixels, row by row of tiles.
     /// Tiles are aligned to multiples of `side` of the frame, so a crop is cut as its frame is.
     pub fn tiles(self, side: u32) -> Vec<Window> {

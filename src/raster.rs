@@ -50,8 +50,9 @@ use crate::simd::SimdLevel;
 use crate::visibility::{Counting, Cover, LevelCounts, NearestBuffer, VisibilityBuffer};
 use arithmetic::Kernel;
 use blocks::MOST_SIDE;
-use image_plane::ImagePlane;
-use strips::{for_each_strip, strips};
+use rayon::prelude::*;
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use strips::{Strip, for_each_strip, strips};
 use tile::{Tile, Tiling};
 
 pub use counts::{RasterCounts, count_raster};
@@ -112,35 +113,78 @@ pub fn rasterize_with(
     options: RasterOptions,
     done: &(dyn Fn() + Sync),
 ) -> VisibilityBuffer {
-    let side = options.tile_side.clamp(1, MOST_SIDE);
-    let plane = ImagePlane::new(&scene.camera);
-    let tiling = Tiling::new(&plane, &scene.mesh, window, side, options.simd, Kernel::Certain);
-    let counts = counting == Counting::All;
-    let mut visible = vec![None; window.len()];
-    let mut cover = vec![Cover::default(); if counts { window.len() } else { 0 }];
+    let mut buffer = VisibilityBuffer::unseen(window);
+    rasterize_into(
+        &RasterPicture::new(scene, window, counting, options),
+        window,
+        &mut buffer,
+        done,
+    );
+    buffer
+}
+
+/// A picture that is ready to be rasterized, whole or in bands: its triangles are sorted into tiles.
+pub struct RasterPicture<'a> {
+    tiling: Tiling<'a>,
+    side: u32,
+    counts: bool,
+    /// Tiles that were drawn and wait for the next.
+    rooms: Mutex<Vec<Tile>>,
+}
+
+impl<'a> RasterPicture<'a> {
+    /// The picture of the scene's camera in `window`, which must lie inside its frame.
+    pub fn new(
+        scene: &'a Scene,
+        window: Window,
+        counting: Counting,
+        options: RasterOptions,
+    ) -> Self {
+        let side = options.tile_side.clamp(1, MOST_SIDE);
+        let tiling =
+            Tiling::new(&scene.camera, &scene.mesh, window, side, options.simd, Kernel::Certain);
+        Self { tiling, side, counts: counting == Counting::All, rooms: Mutex::default() }
+    }
+
+    /// Nothing can fail while the lock is held.
+    fn rooms(&self) -> MutexGuard<'_, Vec<Tile>> {
+        self.rooms.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// As [`rasterize_with`], of a part of a picture's window, into a buffer that was used before:
+/// whatever it held is written over, and its memory is kept. Parts may be rasterized side by side.
+pub fn rasterize_into(
+    picture: &RasterPicture<'_>,
+    window: Window,
+    buffer: &mut VisibilityBuffer,
+    done: &(dyn Fn() + Sync),
+) {
+    let RasterPicture { tiling, side, counts, .. } = picture;
+    buffer.turn_to(window);
+    let mut cover = vec![Cover::default(); if *counts { window.len() } else { 0 }];
     let mut covers: Vec<_> = match counts {
-        true => strips(window, side, &mut cover).into_iter().map(Some).collect(),
+        true => strips(window, *side, &mut cover).into_iter().map(Some).collect(),
         false => Vec::new(),
     };
-    let strips = strips(window, side, &mut visible);
+    let strips = strips(window, *side, &mut buffer.visible);
     covers.resize_with(strips.len(), || None);
-    let work = strips.into_iter().zip(covers).collect();
-    let levels = for_each_strip(
-        work,
-        || Tile::new(counts),
-        |tile, (mut visible, mut cover)| {
-            let mut levels = LevelCounts::default();
-            for window in visible.tiles.clone() {
-                let mut doubt = tile.draw(&tiling, window);
-                resolve::write(&tiling, tile, &mut doubt, &mut visible, cover.as_mut());
-                levels.add(doubt.levels);
-                done();
-            }
-            levels
-        },
-    );
-    let cover = counts.then_some(cover);
-    VisibilityBuffer { window, visible, cover, levels: sum(levels) }
+    let draw = |(mut visible, mut cover): (Strip<'_, _>, Option<Strip<'_, _>>)| {
+        let room = picture.rooms().pop();
+        let mut tile = room.unwrap_or_else(|| Tile::new(*counts));
+        let mut levels = LevelCounts::default();
+        for window in visible.tiles.clone() {
+            let mut doubt = tile.draw(tiling, window);
+            resolve::write(tiling, &tile, &mut doubt, &mut visible, cover.as_mut());
+            levels.add(doubt.levels);
+            done();
+        }
+        picture.rooms().push(tile);
+        levels
+    };
+    let levels = strips.into_par_iter().zip(covers).map(draw).collect();
+    buffer.cover = counts.then_some(cover);
+    buffer.levels = sum(levels);
 }
 
 /// Only the id and the t of what is visible at every pixel of `window`, which must lie inside the
@@ -168,8 +212,8 @@ pub fn rasterize_nearest_into(
 ) {
     let window = buffer.window;
     let side = options.tile_side.clamp(1, MOST_SIDE);
-    let plane = ImagePlane::new(&scene.camera);
-    let tiling = Tiling::new(&plane, &scene.mesh, window, side, options.simd, Kernel::Certain);
+    let tiling =
+        Tiling::new(&scene.camera, &scene.mesh, window, side, options.simd, Kernel::Certain);
     buffer.ids.resize(window.len(), u32::MAX);
     buffer.t.resize(window.len(), f32::INFINITY);
     let ids = strips(window, side, &mut buffer.ids);

@@ -10,6 +10,8 @@ mod choice;
 mod describe;
 mod develop;
 pub mod expose;
+mod eye;
+mod in_order;
 mod measure;
 mod plane_rows;
 mod planes;
@@ -86,7 +88,8 @@ impl Default for RenderOptions {
     }
 }
 
-/// Where the time of a frame went.
+/// Where the time of a frame went. Stages of bands that are made side by side count with the time
+/// that threads spent on them over the number of threads.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct FrameTimes {
     /// Building the BVH (next to nothing on the raster path, unless shadows need one).
@@ -137,25 +140,41 @@ pub struct Account {
     pub times: FrameTimes,
 }
 
+impl Account {
+    /// Adds what is to be said of a part that was made beside `threads` − 1 others.
+    fn add(&mut self, part: &Self, threads: u32) {
+        self.covered_pixels += part.covered_pixels;
+        self.levels.add(part.levels);
+        self.notes.add(part.notes);
+        self.times.visibility += part.times.visibility / threads;
+        self.times.shading += part.times.shading / threads;
+        self.times.developing += part.times.developing / threads;
+    }
+}
+
 /// Renders a frame.
 pub fn render(scene: &Scene, options: &RenderOptions, progress: &dyn Progress) -> Frame {
     let (film, account) = bands::Ready::new(scene, options, progress).whole(progress);
     Frame { film, account }
 }
 
-/// Renders a frame and hands it on in bands of rows, from the top, each as a film of its own. Put
-/// together, they are what [`render`] makes, bit for bit, and a fraction of its memory is held. All
-/// but the last have a multiple of 64 rows.
+/// Renders a frame in bands of rows, each a film of its own. Put together, they are what [`render`]
+/// makes, bit for bit, and a fraction of its memory is held. All but the last have a multiple of 32
+/// rows.
+///
+/// `work` is done on every band, on several threads at once; `take` gets what came of it in the
+/// order of the bands, from the top, while others are made.
 ///
 /// # Errors
-/// What `each` gives; nothing more is rendered then.
-pub fn render_bands<E>(
+/// The first from the top that `work` or `take` gives; of what follows nothing is taken then.
+pub fn render_bands<T: Send, E: Send>(
     scene: &Scene,
     options: &RenderOptions,
     progress: &dyn Progress,
-    each: impl FnMut(Film) -> Result<(), E>,
+    work: impl Fn(&Film) -> Result<T, E> + Sync,
+    take: impl FnMut(T) -> Result<(), E> + Send,
 ) -> Result<Account, E> {
-    bands::Ready::new(scene, options, progress).in_bands(progress, each)
+    bands::Ready::new(scene, options, progress).in_bands(progress, work, take)
 }
 
 /// A visibility buffer, and the time that building and answering took.

@@ -5,6 +5,7 @@
 
 use crate::mesh::{Barycentric, TriangleId};
 use crate::pixel::{Pixel, Window};
+use rayon::prelude::*;
 
 /// Which side of the triangle the eye sees.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -95,6 +96,16 @@ pub struct LevelCounts {
 }
 
 impl LevelCounts {
+    /// Nothing was decided.
+    pub const NONE: Self = Self {
+        single: 0,
+        double: 0,
+        exact: 0,
+        pixels_single: 0,
+        pixels_double: 0,
+        pixels_exact: 0,
+    };
+
     /// Adds another tile's counts.
     pub fn add(&mut self, other: Self) {
         self.single += other.single;
@@ -223,6 +234,25 @@ impl VisibilityTile {
 }
 
 impl VisibilityBuffer {
+    /// A buffer for a window that is still to be seen; it has room for no pixel yet.
+    pub const fn unseen(window: Window) -> Self {
+        Self { window, visible: Vec::new(), cover: None, levels: LevelCounts::NONE }
+    }
+
+    /// Takes another window, with one entry per pixel: the memory stays, and so does what it holds,
+    /// until the whole window is written.
+    pub fn turn_to(&mut self, window: Window) {
+        self.window = window;
+        self.levels = LevelCounts::default();
+        self.cover = None;
+        if self.visible.len() >= window.len() {
+            self.visible.truncate(window.len());
+            return;
+        }
+        // Fresh memory costs as much as what is written there: all threads share it.
+        self.visible = (0..window.len()).into_par_iter().map(|_| None).collect();
+    }
+
     /// Puts tiles together that cover `window` exactly once.
     pub fn from_tiles(window: Window, counting: Counting, tiles: Vec<VisibilityTile>) -> Self {
         let mut visible = vec![None; window.len()];

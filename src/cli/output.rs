@@ -3,22 +3,24 @@
 use super::INTERRUPTED;
 use super::failure::Failure;
 use serde_json::Value;
-use std::fs::File;
 use std::io::Write;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, Mutex};
-use truecast::film::{FilmError, check_writable, write_atomic, write_atomic_with};
+use truecast::film::{AtomicFile, FilmError, check_writable};
 
-/// Held while a file is written, so that an interruption waits for the rename instead of leaving a
-/// temporary file.
-pub(super) type Writing = Arc<Mutex<()>>;
+/// Files that are being written and do not show yet. Held while one is created or shown, so that an
+/// interruption, which removes them, misses none.
+pub(super) type Writing = Arc<Mutex<Vec<PathBuf>>>;
 
-/// Makes an interruption end the program with status 130, never in the middle of a write.
+/// Makes an interruption end the program with status 130, and leave no part of a file.
 pub(super) fn exit_on_interrupt() -> Writing {
     let writing = Writing::default();
     let held = Arc::clone(&writing);
     let installed = ctrlc::set_handler(move || {
-        let _wait = held.lock();
+        let unfinished = held.lock();
+        for path in unfinished.iter().flat_map(|paths| paths.iter()) {
+            let _ = std::fs::remove_file(path);
+        }
         std::process::exit(i32::from(INTERRUPTED));
     });
     if let Err(error) = installed {
@@ -27,26 +29,32 @@ pub(super) fn exit_on_interrupt() -> Writing {
     writing
 }
 
-/// Writes a file in one step.
-pub(super) fn save(writing: &Writing, path: &Path, bytes: &[u8]) -> Result<(), FilmError> {
-    let _held = writing.lock();
-    write_atomic(path, bytes)
+/// Begins a file.
+pub(super) fn begin(writing: &Writing, path: &Path) -> Result<AtomicFile, FilmError> {
+    let unfinished = writing.lock();
+    let file = AtomicFile::create(path)?;
+    if let Ok(mut unfinished) = unfinished {
+        unfinished.push(file.unfinished().to_owned());
+    }
+    Ok(file)
 }
 
-/// Writes a file piece by piece, which shows in one step; says how long it became.
-pub(super) fn save_with(
-    writing: &Writing,
-    path: &Path,
-    write: impl FnOnce(&mut File) -> std::io::Result<()>,
-) -> Result<usize, FilmError> {
-    let _held = writing.lock();
-    let mut length = 0;
-    write_atomic_with(path, |file| {
-        write(file)?;
-        length = file.metadata()?.len();
-        Ok(())
-    })?;
-    Ok(usize::try_from(length).unwrap_or(usize::MAX))
+/// Shows a file.
+pub(super) fn finish(writing: &Writing, file: AtomicFile) -> Result<(), FilmError> {
+    let unfinished = writing.lock();
+    let path = file.unfinished().to_owned();
+    file.commit()?;
+    if let Ok(mut unfinished) = unfinished {
+        unfinished.retain(|other| *other != path);
+    }
+    Ok(())
+}
+
+/// Writes a file in one step.
+pub(super) fn save(writing: &Writing, path: &Path, bytes: &[u8]) -> Result<(), FilmError> {
+    let mut file = begin(writing, path)?;
+    file.with(|file| file.write_all(bytes))?;
+    finish(writing, file)
 }
 
 /// Prints text to stdout. A reader that closed the pipe has what it wanted.

@@ -8,13 +8,13 @@ use super::failure::Failure;
 use super::output::{self, Writing};
 use super::progress::Bar;
 use super::{OK, on_threads};
-use outputs::Outputs;
+use outputs::{Encoder, Outputs};
 use report::Report;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 use truecast::accel::BuildPreset;
 use truecast::cast;
-use truecast::film::{ClipCount, Format, format_of};
+use truecast::film::{ClipCount, Film, Format, format_of};
 use truecast::pixel::{Resolution, Window};
 use truecast::raster::{self, DepthBuffer};
 use truecast::render::visible::{Listing, to_csv};
@@ -72,20 +72,20 @@ fn run_here(arguments: &RenderArguments, writing: &Writing) -> Result<u8, Failur
             .map(|_| arguments.subpixel.map_or(Listing::Centres, Listing::Subsamples)),
     };
     let frame = scene.camera.resolution();
-    let mut outputs = Outputs::new(&targets, frame, options.window.unwrap_or(frame.window()));
-    let account = render_bands(&scene, &options, &bar, |band| outputs.append(&band))?;
+    let encoder = Encoder::new(&targets, frame, options.window.unwrap_or(frame.window()));
+    let mut outputs = Outputs::new(&encoder, writing);
+    let encode = |band: &Film| encoder.encode(band);
+    let account = render_bands(&scene, &options, &bar, encode, |band| outputs.append(band))?;
     bar.finish();
     if let (Some(remark), false) = (&account.tree_remark, arguments.quiet) {
         output::print_warnings(std::slice::from_ref(remark));
     }
-    let (writing_began, encoding) = (Instant::now(), outputs.encoding);
-    let mut written = outputs.write(writing)?;
+    let mut written = outputs.write()?;
     if let (Some(path), Some(list)) = (&arguments.visible, &account.visible) {
         let text = to_csv(&scene, list);
         output::save(writing, path, text.as_bytes())?;
         written.push(Written { path: path.clone(), bytes: text.len(), clipped: None });
     }
-    let write_time = writing_began.elapsed().saturating_sub(outputs.encoding - encoding);
     let total = started.elapsed();
     let report = Report {
         arguments,
@@ -97,7 +97,7 @@ fn run_here(arguments: &RenderArguments, writing: &Writing) -> Result<u8, Failur
         written: &written,
     };
     if arguments.json {
-        let times = [("load", load_time), ("write", write_time), ("total", total)];
+        let times = [("load", load_time), ("write", outputs.writing_time), ("total", total)];
         output::print_json(&report.document(&times));
     } else if !arguments.quiet {
         output::print(&report.summary(total));

@@ -39,25 +39,42 @@ const BLOCK: usize = (1 << 16) - 1;
 /// is written before anything is saved, and the 8 bytes that every write reaches over.
 const OVERHEAD: usize = 5 + 156 + 8;
 
+/// Bytes of the checksum at the end.
+const CHECKSUM: usize = size_of::<u32>();
+
+/// Memory that is used for one stream after the other.
+#[derive(Debug, Default)]
+pub(super) struct Room {
+    out: Vec<u8>,
+    pieces: Vec<Piece>,
+}
+
 /// The bytes as a zlib stream. `distances`, each 1 to [`FARTHEST`], are where repeats are looked for.
-pub(super) fn zlib(bytes: &[u8], distances: [usize; DISTANCES]) -> Vec<u8> {
+pub(super) fn zlib<'room>(
+    bytes: &[u8],
+    distances: [usize; DISTANCES],
+    room: &'room mut Room,
+) -> &'room [u8] {
     // 32 KiB window, fastest level, no dictionary.
     const HEADER: [u8; 2] = [0x78, 0x01];
+    let Room { out, pieces } = room;
     let blocks = bytes.len().div_ceil(BLOCK).max(1);
-    let mut out = vec![0; HEADER.len() + bytes.len() + blocks * OVERHEAD];
-    out[..2].copy_from_slice(&HEADER);
+    let most = HEADER.len() + bytes.len() + blocks * OVERHEAD + CHECKSUM;
+    if out.len() < most {
+        out.resize(most, 0);
+    }
+    out[..HEADER.len()].copy_from_slice(&HEADER);
     let distance_codes = DistanceCodes::new(distances);
-    let mut pieces = Vec::new();
-    let mut writer = BitWriter::new(&mut out, HEADER.len());
+    let mut writer = BitWriter::new(out, HEADER.len());
     for block in 0..blocks {
         let range = block * BLOCK..bytes.len().min((block + 1) * BLOCK);
-        find_pieces(bytes, range.clone(), distances, &mut pieces);
-        write_block(&bytes[range], &pieces, &distance_codes, block + 1 == blocks, &mut writer);
+        find_pieces(bytes, range.clone(), distances, pieces);
+        write_block(&bytes[range], pieces, &distance_codes, block + 1 == blocks, &mut writer);
     }
     let length = writer.finish();
-    out.truncate(length);
-    out.extend(simd_adler32::adler32(&bytes).to_be_bytes());
-    out
+    let checksum = simd_adler32::adler32(&bytes).to_be_bytes();
+    out[length..length + CHECKSUM].copy_from_slice(&checksum);
+    &out[..length + CHECKSUM]
 }
 
 /// Writes one block, coded or stored, whichever is shorter.

@@ -5,20 +5,19 @@
 //! date and exactly one attribute of our own: the `exr` crate writes such attributes in the order of
 //! a hash map, which differs between runs. Tiles, deep samples and several parts are not written.
 //!
-//! Compression is our own (`deflate`), for the crate's takes 7 times as long: a frame of 1920 × 1080
-//! costs 0.27 core seconds with 25 planes, half of it in the encoder.
+//! Compression is our own (`deflate`), for the crate's takes 7 times as long.
 
 mod block;
 mod decode;
+mod writer;
 
 pub use decode::decode_exr;
+pub use writer::ExrWriter;
 
-use std::io::{Cursor, Seek, Write};
+use std::io::Cursor;
+use std::sync::Mutex;
 
-use ::exr::block::chunk::{Chunk, CompressedBlock, CompressedScanLineBlock};
-use ::exr::block::writer::ChunksWriter;
 use ::exr::compression::Compression;
-use ::exr::error::Error;
 use ::exr::math::Vec2;
 use ::exr::meta::BlockDescription;
 use ::exr::meta::attribute::{
@@ -45,20 +44,26 @@ const REC_709: Chromaticities = Chromaticities {
 /// Rows of a block.
 pub(super) const BLOCK_ROWS: usize = 16;
 
-/// A film as an EXR file holds it, as far as its rows have come: everything but the table of blocks.
+/// How the pictures of one window lie in a file.
 #[derive(Debug)]
-pub struct ExrFilm {
+pub struct ExrLayout {
     header: Header,
+    window: Window,
     /// Type and name of each plane, in the file's order.
     planes: Vec<(String, SampleType)>,
-    /// Blocks from the top down.
-    chunks: Vec<Chunk>,
-    /// Rows that have come.
-    rows: usize,
+    /// What was used to compress a block and waits for the next.
+    rooms: Mutex<Vec<block::Room>>,
 }
 
-impl ExrFilm {
-    /// An empty picture of `window` with the planes and description of `band`, which is a part of
+/// Rows of a picture, compressed: blocks as they stand in the file.
+#[derive(Debug)]
+pub struct ExrRows {
+    first: u32,
+    blocks: Vec<Vec<u8>>,
+}
+
+impl ExrLayout {
+    /// A picture of `window` with the planes and description of `band`, which is a part of
     /// it: display window = full frame, data window = `window`, one FLOAT or UINT channel per plane,
     /// the description as the string attribute `truecast`.
     ///
@@ -70,76 +75,74 @@ impl ExrFilm {
         let planes = in_order(band);
         let names = planes.iter().map(|plane| (plane.name.clone(), sample_type(plane))).collect();
         let header = describe(band, &planes, window);
-        Ok(Self { header, planes: names, chunks: Vec::new(), rows: 0 })
+        Ok(Self { header, window, planes: names, rooms: Mutex::default() })
     }
 
-    /// Compresses the next rows of the picture, in parallel. All bands but the last have a multiple
-    /// of 16 rows.
+    /// Compresses some rows of the picture, in parallel. They begin a multiple of 16 rows below its
+    /// top, and all but the last have a multiple of 16 rows.
     ///
     /// # Errors
     ///
-    /// [`FilmError::Inconsistent`] for a broken film, or a band that does not continue the picture.
-    pub fn append(&mut self, band: &Film) -> Result<(), FilmError> {
+    /// [`FilmError::Inconsistent`] for a broken film, or one that is no such part.
+    pub fn compress(&self, band: &Film) -> Result<ExrRows, FilmError> {
         check_film(band)?;
         let planes = in_order(band);
         let names = planes.iter().map(|plane| (plane.name.as_str(), sample_type(plane)));
-        let (width, height) = (band.window.width() as usize, band.window.height() as usize);
-        let top = self.header.own_attributes.layer_position.y() as usize + self.rows;
+        let (whole, part) = (self.window, band.window);
+        let whole_blocks = |rows: u32| (rows as usize).is_multiple_of(BLOCK_ROWS);
         let fits = names.eq(self.planes.iter().map(|(name, kind)| (name.as_str(), *kind)))
-            && width == self.header.layer_size.width()
-            && band.window.y0() as usize == top
-            && self.rows.is_multiple_of(BLOCK_ROWS);
+            && (part.x0(), part.x1()) == (whole.x0(), whole.x1())
+            && (whole.y0()..whole.y1()).contains(&part.y0())
+            && whole_blocks(part.y0() - whole.y0())
+            && (part.y1() == whole.y1() || part.y1() < whole.y1() && whole_blocks(part.height()));
         if !fits {
-            let reason = format!("{:?} does not continue the picture", band.window);
-            return Err(FilmError::Inconsistent { reason });
+            return Err(misfit(part));
         }
-        let blocks: Vec<usize> = (0..height).step_by(BLOCK_ROWS).collect();
-        self.chunks.par_extend(blocks.into_par_iter().map(|first| {
+        let (width, height) = (part.width() as usize, part.height() as usize);
+        let first_rows: Vec<usize> = (0..height).step_by(BLOCK_ROWS).collect();
+        let block = |first: usize| {
+            let mut room = self.rooms().pop().unwrap_or_default();
+            // Of a block stand its first row and its length before it.
+            let mut bytes = Vec::new();
+            bytes.extend((part.y0() + first as u32).to_le_bytes());
+            bytes.extend([0; 4]);
+            let before = bytes.len();
             let rows = first..height.min(first + BLOCK_ROWS);
-            let block = CompressedScanLineBlock {
-                // A row is at most MAX_SIDE, far inside an i32.
-                y_coordinate: (top + first) as i32,
-                compressed_pixels_le: block::compress(&planes, width, rows),
-            };
-            Chunk { layer_index: 0, compressed_block: CompressedBlock::ScanLine(block) }
-        }));
-        self.rows += height;
-        Ok(())
+            block::compress(&planes, width, rows, &mut room, &mut bytes);
+            let length = (bytes.len() - before) as u32;
+            bytes[before - 4..before].copy_from_slice(&length.to_le_bytes());
+            self.rooms().push(room);
+            bytes
+        };
+        Ok(ExrRows { first: part.y0(), blocks: first_rows.into_par_iter().map(block).collect() })
     }
 
-    /// Writes the file.
-    ///
-    /// # Errors
-    ///
-    /// The writer's, or an incomplete picture.
-    pub fn write(self, out: impl Write + Seek) -> std::io::Result<()> {
-        let validate = true;
-        let headers = [self.header].into_iter().collect();
-        ::exr::block::write(out, headers, validate, |_, writer| {
-            for (position, chunk) in self.chunks.into_iter().enumerate() {
-                writer.write_chunk(position, chunk)?;
-            }
-            Ok(())
-        })
-        .map_err(|error| match error {
-            Error::Io(error) => error,
-            other => std::io::Error::other(other.to_string()),
-        })
+    /// No work is done while the lock is held, so that none can be poisoned.
+    fn rooms(&self) -> std::sync::MutexGuard<'_, Vec<block::Room>> {
+        self.rooms.lock().unwrap_or_else(std::sync::PoisonError::into_inner)
     }
 }
 
-/// The film as the bytes of an EXR file, as [`ExrFilm`] has it.
+fn misfit(window: Window) -> FilmError {
+    FilmError::Inconsistent { reason: format!("{window:?} does not continue the picture") }
+}
+
+/// The film as the bytes of an EXR file: its planes over its window.
 ///
 /// # Errors
 ///
 /// [`FilmError::Inconsistent`] for a broken film.
 pub fn encode_exr(film: &Film) -> Result<Vec<u8>, FilmError> {
-    let mut picture = ExrFilm::new(film, film.window)?;
-    picture.append(film)?;
+    let layout = ExrLayout::new(film, film.window)?;
+    let rows = layout.compress(film)?;
     let mut bytes = Cursor::new(Vec::new());
-    picture
-        .write(&mut bytes)
-        .map_err(|error| FilmError::Encode { format: "EXR", reason: error.to_string() })?;
+    let failed = |error: std::io::Error| {
+        let reason = error.to_string();
+        FilmError::Encode { format: "EXR", reason }
+    };
+    let mut writer = ExrWriter::new(&layout, &mut bytes).map_err(failed)?;
+    writer.append(&rows).map_err(failed)?;
+    writer.finish().map_err(failed)?;
     Ok(bytes.into_inner())
 }
 

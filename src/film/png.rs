@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::check::check_film;
 use super::read::full_plane;
 use super::{Film, FilmError, NumberPlane, Numbers, PackedOrder, Samples};
-use crate::color::srgb_code;
+use crate::color::srgb_code_of_single;
 
 /// How many pixels the clamp to [0, 1] changed. A pixel may count in both.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -114,21 +114,33 @@ struct Unencodable {
 }
 
 fn encode_row(planes: [&[f32]; 3], codes: &mut [u8]) -> Result<ClipCount, Unencodable> {
-    let mut clipped = ClipCount::default();
-    for (column, codes) in codes.chunks_exact_mut(3).enumerate() {
-        let (mut above, mut below) = (false, false);
-        for (channel, code) in codes.iter_mut().enumerate() {
-            let value = planes[channel][column];
-            if !value.is_finite() {
-                return Err(Unencodable { column, channel, value });
-            }
-            above |= value > 1.0;
-            below |= value < 0.0;
-            *code = srgb_code(f64::from(value));
-        }
-        clipped.add(ClipCount { above: above.into(), below: below.into() });
+    // Each question is asked of the whole row, which compilers answer many pixels at a time.
+    if let Some(fault) = first_fault(planes) {
+        return Err(fault);
     }
-    Ok(clipped)
+    for (channel, plane) in planes.into_iter().enumerate() {
+        for (pixel, &value) in codes.as_chunks_mut::<3>().0.iter_mut().zip(plane) {
+            pixel[channel] = srgb_code_of_single(value);
+        }
+    }
+    let [r, g, b] = planes;
+    let pixels = || r.iter().zip(g).zip(b);
+    let above = pixels().map(|((&r, &g), &b)| u32::from((r > 1.0) | (g > 1.0) | (b > 1.0))).sum();
+    let below = pixels().map(|((&r, &g), &b)| u32::from((r < 0.0) | (g < 0.0) | (b < 0.0))).sum();
+    let [above, below]: [u32; 2] = [above, below];
+    Ok(ClipCount { above: above.into(), below: below.into() })
+}
+
+/// The first value of a row without a code, by columns.
+fn first_fault(planes: [&[f32]; 3]) -> Option<Unencodable> {
+    let all = planes.map(|plane| plane.iter().fold(true, |all, value| all & value.is_finite()));
+    if all == [true; 3] {
+        return None;
+    }
+    (0..planes[0].len()).find_map(|column| {
+        let channel = planes.iter().position(|plane| !plane[column].is_finite())?;
+        Some(Unencodable { column, channel, value: planes[channel][column] })
+    })
 }
 
 /// No byte of a deflate stream stands for more bytes (zlib's documentation gives 1032).

@@ -1,11 +1,10 @@
 //! Films to files and back: the format by name, and writes that happen wholly or not at all.
 //!
-//! A file is encoded in memory first, then written to a temporary file `.truecast-*.part` in
-//! the target's folder, then renamed over the target. Whoever reads the target sees the old file or
-//! the new one, never a part. Every error removes the temporary file. A program that is killed (or
-//! leaves through `process::exit` on another thread) between creation and rename, a few
-//! milliseconds, leaves that one file behind: stop before [`write_atomic`] or after it. Nothing is
-//! flushed to the disk's platters, so a power cut is not covered.
+//! A file is written to a temporary file `.truecast-*.part` in the target's folder, then renamed over
+//! the target. Whoever reads the target sees the old file or the new one, never a part. Every error
+//! removes the temporary file. A program that is killed (or leaves through `process::exit` on another
+//! thread) between creation and rename leaves that one file behind: [`AtomicFile::unfinished`] tells
+//! which. Nothing is flushed to the disk's platters, so a power cut is not covered.
 
 use std::ffi::OsStr;
 use std::fs::File;
@@ -77,23 +76,58 @@ pub fn load_exr(path: &Path) -> Result<Film, FilmError> {
 /// [`FilmError::Write`] when the target is a folder or a device, or its folder is missing, not a
 /// folder, not writable or full. No partial file is left, and an old file is untouched.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> Result<(), FilmError> {
-    write_atomic_with(path, |file| file.write_all(bytes))
+    let mut file = AtomicFile::create(path)?;
+    file.with(|file| file.write_all(bytes))?;
+    file.commit()
 }
 
-/// [`write_atomic`] for what is better written piece by piece.
-///
-/// # Errors
-///
-/// As [`write_atomic`], and what `write` gives.
-pub fn write_atomic_with(
-    path: &Path,
-    write: impl FnOnce(&mut File) -> std::io::Result<()>,
-) -> Result<(), FilmError> {
-    let target = resolve_target(path)?;
-    let mut file = create_beside(path, &target)?;
-    write(file.as_file_mut()).map_err(|error| unwritable(path, &target, &error))?;
-    file.persist(&target).map_err(|refused| unwritable(path, &target, &refused.error))?;
-    Ok(())
+/// A file that is being written and does not show yet.
+#[derive(Debug)]
+pub struct AtomicFile {
+    file: NamedTempFile,
+    path: PathBuf,
+    target: PathBuf,
+}
+
+impl AtomicFile {
+    /// Begins a file that will stand at `path`. It is removed when this is dropped.
+    ///
+    /// # Errors
+    ///
+    /// As [`write_atomic`].
+    pub fn create(path: &Path) -> Result<Self, FilmError> {
+        let target = resolve_target(path)?;
+        let file = create_beside(path, &target)?;
+        Ok(Self { file, path: path.to_owned(), target })
+    }
+
+    /// Where it stands meanwhile.
+    pub fn unfinished(&self) -> &Path {
+        self.file.path()
+    }
+
+    /// Does something with the file.
+    ///
+    /// # Errors
+    ///
+    /// [`FilmError::Write`] with what `write` gives.
+    pub fn with<T>(
+        &mut self,
+        write: impl FnOnce(&mut File) -> std::io::Result<T>,
+    ) -> Result<T, FilmError> {
+        write(self.file.as_file_mut()).map_err(|error| unwritable(&self.path, &self.target, &error))
+    }
+
+    /// Shows it, in one step.
+    ///
+    /// # Errors
+    ///
+    /// As [`write_atomic`].
+    pub fn commit(self) -> Result<(), FilmError> {
+        let Self { file, path, target } = self;
+        file.persist(&target).map_err(|refused| unwritable(&path, &target, &refused.error))?;
+        Ok(())
+    }
 }
 
 /// Checks, before any work is spent, that [`save`] could write a file of this name now.

@@ -2,7 +2,6 @@
 
 use super::TILE_SIDE;
 use super::arithmetic::Kernel;
-use super::image_plane::ImagePlane;
 use super::tile::{Tile, Tiling};
 use crate::pixel::Window;
 use crate::scene::Scene;
@@ -24,9 +23,8 @@ pub struct RasterCounts {
 /// Counts what [`super::rasterize_nearest`] does for a window, on the lowest instruction set, so that
 /// every machine of an architecture counts the same.
 pub fn count_raster(scene: &Scene, window: Window) -> RasterCounts {
-    let plane = ImagePlane::new(&scene.camera);
     let simd = SimdLevel::Baseline;
-    let tiling = Tiling::new(&plane, &scene.mesh, window, TILE_SIDE, simd, Kernel::Certain);
+    let tiling = Tiling::new(&scene.camera, &scene.mesh, window, TILE_SIDE, simd, Kernel::Certain);
     let counts: Vec<RasterCounts> = window
         .tiles(TILE_SIDE)
         .into_par_iter()

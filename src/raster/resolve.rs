@@ -37,6 +37,10 @@ pub(super) fn write(
     let (grid, window) = (&tiling.blocks, doubt.window);
     let mut known: Known = vec![None; tile.drawn.len()];
     let side = BLOCK_SIDE as usize;
+    for y in window.y0()..window.y1() {
+        let row = visible.row_from(Pixel { x: window.x0(), y });
+        row[..window.width() as usize].fill(None);
+    }
     for row in 0..(window.height() as usize).div_ceil(side) {
         for column in 0..(window.width() as usize).div_ceil(side) {
             let block = row * grid.per_side + column;
@@ -92,7 +96,7 @@ fn write_lanes(
 ) {
     let id = TriangleId::new(tile.drawn[number].id);
     let triangle = known[number].get_or_insert_with(|| {
-        let shown = Shown::new(tiling.plane, tiling.mesh.triangle(id))?;
+        let shown = Shown::new(&tiling.plane, tiling.mesh.triangle(id))?;
         let rows = doubt.rows_of(&tile.drawn, number as u32)?;
         Some(Rc::new((rows.as_ref().clone(), shown)))
     });

@@ -15,6 +15,7 @@ use super::tile_rows::{Drawn, TileFrame, TileRows, is_hidden};
 use super::unproven::StoredDepth;
 use crate::mesh::TriangleMesh;
 use crate::pixel::Window;
+use crate::scene::camera::PinholeCamera;
 use crate::simd::SimdLevel;
 use fearless_simd::{Simd, dispatch};
 
@@ -23,7 +24,7 @@ const AHEAD: usize = 8;
 
 /// What the tiles of a frame share.
 pub(super) struct Tiling<'a> {
-    pub(super) plane: &'a ImagePlane,
+    pub(super) plane: ImagePlane,
     pub(super) frame: Frame,
     pub(super) mesh: &'a TriangleMesh,
     pub(super) placement: Placement,
@@ -36,15 +37,16 @@ pub(super) struct Tiling<'a> {
 impl<'a> Tiling<'a> {
     /// Places all triangles in the tiles of a window.
     pub(super) fn new(
-        plane: &'a ImagePlane,
+        camera: &PinholeCamera,
         mesh: &'a TriangleMesh,
         window: Window,
         side: u32,
         simd: SimdLevel,
         kernel: Kernel,
     ) -> Self {
-        let frame = Frame::new(plane);
-        let placement = Placement::new(plane, &frame, mesh, (window, side), simd, kernel);
+        let plane = ImagePlane::new(camera);
+        let frame = Frame::new(&plane);
+        let placement = Placement::new(&plane, &frame, mesh, (window, side), simd, kernel);
         let stored = StoredDepth::new(kernel, frame.ray_parameter);
         Self { plane, frame, mesh, placement, blocks: BlockGrid::new(side), simd, kernel, stored }
     }
@@ -85,7 +87,7 @@ impl Tile {
 
     /// Draws a tile, and hands back the stage that settled its doubts.
     pub(super) fn draw<'a>(&mut self, tiling: &'a Tiling<'a>, window: Window) -> Doubt<'a> {
-        let mut doubt = Doubt::new(tiling.plane, &tiling.frame, tiling.mesh, window);
+        let mut doubt = Doubt::new(&tiling.plane, &tiling.frame, tiling.mesh, window);
         self.blocks.clear(&tiling.blocks, window);
         self.drawn.clear();
         tiling.placement.triangles(window, &mut self.order);

@@ -17,7 +17,6 @@ mod write;
 
 use super::TILE_SIDE;
 use super::arithmetic::Kernel;
-use super::image_plane::ImagePlane;
 use super::strips::{for_each_strip, strips};
 use super::tile::{Tile, Tiling};
 use super::watertight::{
@@ -96,8 +95,7 @@ pub fn rasterize_unproven(
             return rasterize_watertight(scene, window, bits, buffer, counting, done);
         }
     };
-    let plane = ImagePlane::new(&scene.camera);
-    let tiling = Tiling::new(&plane, &scene.mesh, window, TILE_SIDE, simd, kernel);
+    let tiling = Tiling::new(&scene.camera, &scene.mesh, window, TILE_SIDE, simd, kernel);
     let mut visible = vec![None; window.len()];
     for_each_strip(
         strips(window, TILE_SIDE, &mut visible),
@@ -129,8 +127,7 @@ pub fn rasterize_unproven_into(
         Ok(kernel) => kernel,
         Err((bits, depths)) => return rasterize_watertight_into(scene, bits, depths, buffer),
     };
-    let plane = ImagePlane::new(&scene.camera);
-    let tiling = Tiling::new(&plane, &scene.mesh, window, TILE_SIDE, simd, kernel);
+    let tiling = Tiling::new(&scene.camera, &scene.mesh, window, TILE_SIDE, simd, kernel);
     let ids = strips(window, TILE_SIDE, &mut buffer.ids);
     let work = ids.into_iter().zip(strips(window, TILE_SIDE, &mut buffer.t)).collect();
     for_each_strip(

@@ -52,7 +52,7 @@ impl Answerer {
     }
 
     /// What it does, as progress calls it, and the side of its tiles in pixels.
-    const fn stage(&self) -> (&'static str, u32) {
+    pub(super) const fn stage(&self) -> (&'static str, u32) {
         match self {
             Self::Cast(_) | Self::CastUnproven(..) => ("cast", cast::TILE_SIDE),
             Self::Raster | Self::RasterUnproven(_) => ("rasterize", raster::TILE_SIDE),
@@ -130,8 +130,15 @@ impl Answerer {
 }
 
 /// Whether any nearest surface is see-through.
-fn has_see_through(scene: &Scene, nearest: &VisibilityBuffer) -> bool {
+pub(super) fn has_see_through(scene: &Scene, nearest: &VisibilityBuffer) -> bool {
     // Most scenes have no such material, and the buffer is large.
-    scene.materials.iter().any(|material| material.opacity != 1.0)
-        && nearest.visible.iter().flatten().any(|visible| !scene.is_opaque(visible.triangle))
+    if scene.materials.iter().all(|material| material.opacity == 1.0) {
+        return false;
+    }
+    // Neighbours mostly see the same triangle.
+    let mut last = None;
+    nearest.visible.iter().flatten().any(|visible| {
+        let is_new = last.replace(visible.triangle) != Some(visible.triangle);
+        is_new && !scene.is_opaque(visible.triangle)
+    })
 }

@@ -15,7 +15,7 @@ use crate::shade::Effects;
 /// Core seconds of each kind of work.
 ///
 /// Measured as user and system time of `truecast render --threads 1 --aov rgba` on a Zen 5 core, on an
-/// interior of 57 thousand triangles, an atrium of 66 thousand and a torus of 2 million, at 64 × 36 and
+/// interior of 57 thousand triangles, an atrium of 66 thousand and a torus of a million, at 64 × 36 and
 /// at 1920 × 1080, with `--path cast`, `--path raster` and a fresh `--bvh-cache` (which takes
 /// [`BuildPreset::Medium`]); differences of these divided by triangles or pixels, to about a third.
 /// On another machine all of them change by about the same factor, which changes no choice.
@@ -32,18 +32,18 @@ struct Costs {
     shadow_ray: f64,
     /// A pixel of the rasterizer, with all that a buffer holds of it.
     raster_pixel: f64,
-    /// A triangle of the rasterizer.
+    /// A triangle of the rasterizer. One that shows costs several times as much as one that does not.
     raster_triangle: f64,
 }
 
 const COSTS: Costs = Costs {
-    build: [6.0e-7, 1.2e-6],
+    build: [4.5e-7, 7.0e-7],
     slower_rays: 1.1,
     cast_ray: 1.2e-8,
     cast_triangle: 2.0e-8,
     shadow_ray: 3.0e-7,
-    raster_pixel: 1.0e-7,
-    raster_triangle: 1.6e-7,
+    raster_pixel: 1.5e-8,
+    raster_triangle: 2.2e-7,
 };
 
 /// A way to make a frame, and what it is predicted to take.

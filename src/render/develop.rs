@@ -5,11 +5,13 @@
 //! `invalid`, which speaks of the background's colour too. Values are rounded to f32 once, here.
 //! All planes of a row are filled at once, while what is visible there is at hand.
 
-use super::plane_rows::{PlaneRow, cut_rows, empty_planes};
+use super::expose::Exposure;
+use super::plane_rows::{PlaneRow, cut, cut_rows, no_samples, resize};
 use super::surface_planes::SurfaceRow;
 use super::{Accuracy, PlaneGroup, PlaneGroups, describe};
 use crate::color::LinearRgb;
 use crate::film::{Film, Plane, Samples};
+use crate::pixel::Window;
 use crate::raster::{STANDARD_HALF_WIDTH, stability};
 use crate::scene::Scene;
 use crate::shade::{Effects, doubt, doubts};
@@ -32,29 +34,65 @@ pub fn develop(
     accuracy: Accuracy,
 ) -> Film {
     let description = describe(scene, accuracy).to_string();
-    develop_described(scene, buffer, radiance, alpha, groups, description)
+    let mut film = blank(scene, groups, buffer.cover.is_some(), description);
+    turn_to(&mut film, buffer.window);
+    lay_out(scene, buffer, (radiance, alpha), groups, &mut film);
+    film
 }
 
-/// [`develop`] with a description at hand, which takes a look at the whole scene.
-pub(super) fn develop_described(
+/// A film with the planes that are asked for, without any sample; that of cover where it is counted.
+pub(super) fn blank(
     scene: &Scene,
-    buffer: &VisibilityBuffer,
-    radiance: &[LinearRgb],
-    alpha: &[f64],
     groups: &PlaneGroups,
+    is_counted: bool,
     description: String,
 ) -> Film {
+    let resolution = scene.camera.resolution();
+    let named = asked(scene, groups, is_counted).into_iter().flat_map(|group| {
+        let named = group.planes().iter();
+        named.map(move |name| Plane { name: (*name).to_owned(), samples: no_samples(group) })
+    });
+    Film { resolution, window: resolution.window(), planes: named.collect(), description }
+}
+
+/// Gives a film another window and room for its samples; its memory is kept, and what it holds until
+/// the whole window is developed.
+pub(super) fn turn_to(film: &mut Film, window: Window) {
+    film.window = window;
+    film.planes.iter_mut().for_each(|plane| resize(&mut plane.samples, window.len()));
+}
+
+/// [`develop`] into a film with the same planes, of which `buffer` is a piece.
+pub(super) fn develop_into(
+    scene: &Scene,
+    buffer: &VisibilityBuffer,
+    exposure: &Exposure,
+    groups: &PlaneGroups,
+    film: &mut Film,
+) {
+    lay_out(scene, buffer, (&exposure.radiance, &exposure.alpha), groups, film);
+}
+
+fn asked(scene: &Scene, groups: &PlaneGroups, is_counted: bool) -> Vec<PlaneGroup> {
     let is_asked = |group: &PlaneGroup| match group {
         PlaneGroup::TextureCoordinates => !scene.mesh.uvs.is_empty() || groups.iter().count() == 1,
-        PlaneGroup::Cover => buffer.cover.is_some(),
+        PlaneGroup::Cover => is_counted,
         _ => true,
     };
-    let asked: Vec<PlaneGroup> = groups.iter().filter(is_asked).collect();
-    let size = buffer.window.len();
-    let mut samples: Vec<Vec<Samples>> =
-        asked.iter().map(|&group| empty_planes(group, size)).collect();
+    groups.iter().filter(is_asked).collect()
+}
+
+fn lay_out(
+    scene: &Scene,
+    buffer: &VisibilityBuffer,
+    (radiance, alpha): (&[LinearRgb], &[f64]),
+    groups: &PlaneGroups,
+    film: &mut Film,
+) {
+    let asked = asked(scene, groups, buffer.cover.is_some());
     let width = buffer.window.width() as usize;
-    cut_rows(&asked, &mut samples, width).into_par_iter().enumerate().for_each(|(row, planes)| {
+    let rows = cut_rows(&asked, &mut film.planes, film.window, buffer.window);
+    rows.into_par_iter().enumerate().for_each(|(row, planes)| {
         let range = row * width..(row + 1) * width;
         let seen = Row {
             scene,
@@ -67,30 +105,23 @@ pub(super) fn develop_described(
         };
         seen.fill(planes);
     });
-    for (group, samples) in asked.iter().zip(&mut samples) {
-        match group {
-            PlaneGroup::Stable => {
-                let stable = stability(scene, buffer, STANDARD_HALF_WIDTH, &|| ());
-                *samples = vec![Samples::Uint(stable.into_iter().map(u32::from).collect())];
-            }
-            PlaneGroup::Invalid => *samples = vec![invalid(scene, buffer, radiance)],
-            _ => {}
-        }
-    }
-    let named = asked.iter().zip(samples).flat_map(|(group, samples)| {
-        let named = group.planes().iter().zip(samples);
-        named.map(|(name, samples)| Plane { name: (*name).to_owned(), samples })
-    });
-    Film {
-        resolution: scene.camera.resolution(),
-        window: buffer.window,
-        planes: named.collect(),
-        description,
+    for plane in &mut film.planes {
+        let Samples::Uint(values) = &mut plane.samples else { continue };
+        let found: Vec<u32> = if plane.name == PlaneGroup::Stable.name() {
+            let stable = stability(scene, buffer, STANDARD_HALF_WIDTH, &|| ());
+            stable.into_iter().map(u32::from).collect()
+        } else if plane.name == PlaneGroup::Invalid.name() {
+            invalid(scene, buffer, radiance)
+        } else {
+            continue;
+        };
+        let rows = cut(values, film.window, buffer.window).zip(found.chunks(width));
+        rows.for_each(|(row, found)| row.copy_from_slice(found));
     }
 }
 
 /// What the file holds decides about its range, not the centre's sample in f64.
-fn invalid(scene: &Scene, buffer: &VisibilityBuffer, radiance: &[LinearRgb]) -> Samples {
+fn invalid(scene: &Scene, buffer: &VisibilityBuffer, radiance: &[LinearRgb]) -> Vec<u32> {
     let mut bits = doubts(scene, buffer, Effects::of(scene));
     for (bits, rgb) in bits.iter_mut().zip(radiance) {
         *bits &= !doubt::BEYOND_RANGE;
@@ -98,7 +129,7 @@ fn invalid(scene: &Scene, buffer: &VisibilityBuffer, radiance: &[LinearRgb]) -> 
             *bits |= doubt::BEYOND_RANGE;
         }
     }
-    Samples::Uint(bits)
+    bits
 }
 
 /// What is known of a row of pixels.

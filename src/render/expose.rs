@@ -19,7 +19,7 @@ use crate::shade::{Effects, Notes};
 use crate::visibility::{Layers, LevelCounts, VisibilityBuffer, Visible};
 
 /// What a film sees at each pixel of a window, row by row.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Exposure {
     /// Linear, unclamped radiance: the mean over the samples of a pixel, the background where
     /// nothing is visible.
@@ -46,7 +46,11 @@ pub fn expose(
         progress.step();
         built
     });
-    expose_with(scene, answerer, built.of(answerer), (nearest, layers), effects, progress)
+    let mut exposure = Exposure::default();
+    let occluders = built.of(answerer);
+    let seen = (nearest, Some(layers));
+    expose_into(scene, answerer, occluders, seen, effects, &mut exposure, progress);
+    exposure
 }
 
 /// A tree for shadows, where the path that answers has none.
@@ -74,31 +78,36 @@ pub(super) fn occluders(
     Occluders(is_needed.then(build))
 }
 
-/// [`expose`] with a tree for shadows at hand, if there are any.
-pub(super) fn expose_with(
+/// [`expose`] with a tree for shadows at hand, if there are any, in memory that was used before;
+/// without `layers` nothing lies behind anything.
+pub(super) fn expose_into(
     scene: &Scene,
     answerer: &Answerer,
     occluders: Option<&Accelerator>,
-    (nearest, layers): (&VisibilityBuffer, &Layers),
+    (nearest, layers): (&VisibilityBuffer, Option<&Layers>),
     effects: Effects,
+    exposure: &mut Exposure,
     progress: &dyn Progress,
-) -> Exposure {
+) {
     if !effects.has(Effects::SUPERSAMPLING) {
         progress.begin("shade", nearest.window.height() as usize);
-        return expose_sample(scene, occluders, (nearest, layers), effects, &|| progress.step());
+        let seen = (nearest, layers);
+        return expose_sample(scene, occluders, seen, effects, exposure, &|| progress.step());
     }
     let mut sum = Sum::new(nearest.window);
+    let mut sample = Exposure::default();
     let stage = ("supersample", progress);
     let offsets = scene.samples.offsets();
     for_each_subsample(scene, answerer, nearest.window, offsets, stage, |shifted, answer| {
         let layers = match effects.has(Effects::OPACITY) {
-            true => answerer.layers(shifted, answer, &|| ()),
-            false => Layers::none(answer.window),
+            true => Some(answerer.layers(shifted, answer, &|| ())),
+            false => None,
         };
-        let exposed = expose_sample(shifted, occluders, (answer, &layers), effects, &|| ());
-        sum.add(answer.window, exposed);
+        let seen = (answer, layers.as_ref());
+        expose_sample(shifted, occluders, seen, effects, &mut sample, &|| ());
+        sum.add(answer.window, &sample);
     });
-    sum.mean(f64::from(scene.samples.count()))
+    *exposure = sum.mean(f64::from(scene.samples.count()));
 }
 
 /// Sums over the samples of each pixel, in the order in which samples are added.
@@ -114,13 +123,13 @@ impl Sum {
     }
 
     /// Adds one sample of each pixel of a band: whole rows of the window.
-    fn add(&mut self, band: Window, sample: Exposure) {
+    fn add(&mut self, band: Window, sample: &Exposure) {
         let first = self.window.index(band.pixel(0));
-        let radiance = self.total.radiance[first..].iter_mut().zip(sample.radiance);
+        let radiance = self.total.radiance[first..].iter_mut().zip(&sample.radiance);
         for (sum, sample) in radiance {
             *sum = std::array::from_fn(|k| sum[k] + sample[k]);
         }
-        let alpha = self.total.alpha[first..].iter_mut().zip(sample.alpha);
+        let alpha = self.total.alpha[first..].iter_mut().zip(&sample.alpha);
         alpha.for_each(|(sum, sample)| *sum += sample);
         self.total.notes.add(sample.notes);
     }
@@ -140,18 +149,20 @@ impl Sum {
 fn expose_sample(
     scene: &Scene,
     occluders: Option<&Accelerator>,
-    (nearest, layers): (&VisibilityBuffer, &Layers),
+    (nearest, layers): (&VisibilityBuffer, Option<&Layers>),
     effects: Effects,
+    exposure: &mut Exposure,
     done: &(dyn Fn() + Sync),
-) -> Exposure {
-    let shaded = shade_shadowed(scene, nearest, effects, occluders, done);
+) {
+    exposure.radiance.resize(nearest.window.len(), [0.0; 3]);
+    exposure.notes =
+        shade_shadowed(scene, nearest, effects, occluders, &mut exposure.radiance, done);
     let alpha = nearest.visible.iter().map(|visible| f64::from(u8::from(visible.is_some())));
-    let mut exposure =
-        Exposure { radiance: shaded.radiance, alpha: alpha.collect(), notes: shaded.notes };
-    if effects.has(Effects::OPACITY) {
-        blend(scene, occluders, (nearest, layers), effects, &mut exposure);
+    exposure.alpha.clear();
+    exposure.alpha.extend(alpha);
+    if let Some(layers) = layers.filter(|_| effects.has(Effects::OPACITY)) {
+        blend(scene, occluders, (nearest, layers), effects, exposure);
     }
-    exposure
 }
 
 /// Replaces the radiance and alpha of every pixel whose nearest surface is see-through.
@@ -173,12 +184,13 @@ fn blend(
     // Peel: the k-th surfaces behind the nearest, all at once.
     for k in 0..layers.most() {
         let Some(peel) = peel(scene, layers, k) else { break };
-        let shaded = shade_shadowed(scene, &peel, effects, occluders, &|| ());
-        exposure.notes.add(shaded.notes);
+        let mut radiance = vec![[0.0; 3]; peel.window.len()];
+        let notes = shade_shadowed(scene, &peel, effects, occluders, &mut radiance, &|| ());
+        exposure.notes.add(notes);
         for (index, blend) in &mut blends {
             if let Some(visible) = layers.of(*index).get(k) {
                 let place = peel.window.index(layers.window.pixel(*index));
-                blend.add(shaded.radiance[place], opacity(scene, visible.triangle));
+                blend.add(radiance[place], opacity(scene, visible.triangle));
             }
         }
     }

@@ -6,10 +6,11 @@
 
 use crate::accel::Accelerator;
 use crate::cast::shadow::ShadowCaster;
+use crate::color::LinearRgb;
 use crate::scene::Scene;
 use crate::scene::light::Light;
 use crate::scene::light_point::LightPoint;
-use crate::shade::{Asker, Effects, Shaded, shade, shade_with_shadows};
+use crate::shade::{Asker, Effects, Notes, ShadeOptions, shade_into};
 use crate::visibility::VisibilityBuffer;
 
 /// Where a light that casts shadows stands.
@@ -23,17 +24,20 @@ pub fn light_point(light: &Light) -> Option<LightPoint> {
     }
 }
 
-/// Shades a buffer with the shadows that `effects` has, by rays through `accelerator`; without one
-/// nothing casts a shadow. `done` is called once per finished row, from any thread.
+/// Shades a buffer, one number triple per pixel, with the shadows that `effects` has, by rays through
+/// `accelerator`; without one nothing casts a shadow. `done` is called once per finished row, from any
+/// thread.
 pub(super) fn shade_shadowed(
     scene: &Scene,
     buffer: &VisibilityBuffer,
     effects: Effects,
     accelerator: Option<&Accelerator>,
+    radiance: &mut [LinearRgb],
     done: &(dyn Fn() + Sync),
-) -> Shaded {
+) -> Notes {
+    let options = ShadeOptions::new(effects);
     let Some(accelerator) = accelerator.filter(|_| effects.has(Effects::SHADOWS)) else {
-        return shade(scene, buffer, effects, done);
+        return shade_into(scene, buffer, &options, None, radiance, done);
     };
     let lights: Vec<Option<LightPoint>> = scene.lights.iter().map(light_point).collect();
     let asker = || -> Asker<'_> {
@@ -45,5 +49,5 @@ pub(super) fn shade_shadowed(
             })
         })
     };
-    shade_with_shadows(scene, buffer, effects, &asker, done)
+    shade_into(scene, buffer, &options, Some(&asker), radiance, done)
 }

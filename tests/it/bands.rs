@@ -60,8 +60,12 @@ fn bits(samples: &Samples) -> Vec<u32> {
     }
 }
 
-/// Bands of a frame put together by planes, and how many there were.
-fn in_bands(scene: &Scene, options: &RenderOptions) -> (Vec<(String, Vec<u32>)>, usize) {
+/// Bands of a frame, made on some threads, put together by planes, and how many there were.
+fn in_bands(
+    scene: &Scene,
+    options: &RenderOptions,
+    threads: usize,
+) -> (Vec<(String, Vec<u32>)>, usize) {
     let (mut planes, mut count): (Vec<(String, Vec<u32>)>, usize) = (Vec::new(), 0);
     let append = |band: Film| {
         count += 1;
@@ -74,9 +78,9 @@ fn in_bands(scene: &Scene, options: &RenderOptions) -> (Vec<(String, Vec<u32>)>,
         }
         Ok::<_, Infallible>(())
     };
-    // Bands grow with the number of threads.
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build().unwrap();
-    pool.install(|| render_bands(scene, options, &Unwatched, append)).unwrap();
+    let keep = |band: &Film| Ok(band.clone());
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+    pool.install(|| render_bands(scene, options, &Unwatched, keep, append)).unwrap();
     (planes, count)
 }
 
@@ -95,11 +99,13 @@ fn bands_together_are_the_frame() {
                     ..RenderOptions::default()
                 };
                 let whole = render(&scene, &options, &Unwatched);
-                let (planes, count) = in_bands(&scene, &options);
-                assert!(count > 1, "{path:?}");
-                assert_eq!(planes.len(), whole.film.planes.len());
-                for (plane, (name, all)) in whole.film.planes.iter().zip(&planes) {
-                    assert!(bits(&plane.samples) == *all, "{name}, {path:?}, {window:?}");
+                for threads in [1, 3] {
+                    let (planes, count) = in_bands(&scene, &options, threads);
+                    assert!(count > 1, "{path:?}");
+                    assert_eq!(planes.len(), whole.film.planes.len());
+                    for (plane, (name, all)) in whole.film.planes.iter().zip(&planes) {
+                        assert!(bits(&plane.samples) == *all, "{name}, {path:?}, {window:?}");
+                    }
                 }
             }
         }
@@ -109,13 +115,28 @@ fn bands_together_are_the_frame() {
 #[test]
 fn a_band_that_cannot_be_kept_ends_the_frame() {
     let mut count = 0;
-    let refuse = |_| {
+    let refuse = |()| {
         count += 1;
         Err("full")
     };
-    let refused = render_bands(&scene(SCENE), &RenderOptions::default(), &Unwatched, refuse);
+    let scene = scene(SCENE);
+    let options = RenderOptions::default();
+    let refused = render_bands(&scene, &options, &Unwatched, |_| Ok(()), refuse);
     assert_eq!(refused.unwrap_err(), "full");
     assert_eq!(count, 1);
+    // Of faulty bands the topmost is told, whichever was made first.
+    let mut taken = Vec::new();
+    let from_64 = |band: &Film| match band.window.y0() {
+        y @ 64.. => Err(y),
+        y => Ok(y),
+    };
+    let take = |y| {
+        taken.push(y);
+        Ok(())
+    };
+    let faulty = render_bands(&scene, &options, &Unwatched, from_64, take);
+    assert_eq!(faulty.unwrap_err(), 64);
+    assert_eq!(taken, [0, 32]);
 }
 
 #[test]

@@ -6,10 +6,14 @@ use std::io::Read as _;
 const NEAR: [usize; DISTANCES] = [2, 5, 12, 300];
 
 fn assert_comes_back(bytes: &[u8], distances: [usize; DISTANCES]) -> usize {
-    let stream = zlib(bytes, distances);
+    let mut room = Room::default();
+    let stream = zlib(bytes, distances, &mut room).to_vec();
     let mut back = Vec::new();
     flate2::read::ZlibDecoder::new(&stream[..]).read_to_end(&mut back).unwrap();
     assert!(back == bytes, "{} bytes, {distances:?}", bytes.len());
+    // What the room held before does not show.
+    room.out.fill(0xa5);
+    assert!(zlib(bytes, distances, &mut room) == stream, "{} bytes", bytes.len());
     stream.len()
 }
 

@@ -7,15 +7,34 @@
 
 use std::ops::Range;
 
-use super::super::deflate::{FARTHEST, zlib};
+use super::super::deflate::{self, FARTHEST, zlib};
 use super::super::{Plane, Samples};
 
-/// Compresses some rows of planes that are `width` wide.
-pub(super) fn compress(planes: &[&Plane], width: usize, rows: Range<usize>) -> Vec<u8> {
-    let mut halves = separate(planes, width, rows.clone());
-    to_differences(&mut halves);
-    let compressed = zlib(&halves, distances(planes.len(), width));
-    if compressed.len() < halves.len() { compressed } else { interleaved(planes, width, rows) }
+/// Memory that is used for one block after the other.
+#[derive(Debug, Default)]
+pub(super) struct Room {
+    halves: Vec<u8>,
+    zlib: deflate::Room,
+}
+
+/// Compresses some rows of planes that are `width` wide, behind `out`.
+pub(super) fn compress(
+    planes: &[&Plane],
+    width: usize,
+    rows: Range<usize>,
+    room: &mut Room,
+    out: &mut Vec<u8>,
+) {
+    let Room { halves, zlib: room } = room;
+    halves.resize(rows.len() * planes.len() * width * size_of::<u32>(), 0);
+    separate(planes, width, rows.clone(), halves);
+    to_differences(halves);
+    let compressed = zlib(halves, distances(planes.len(), width), room);
+    if compressed.len() < halves.len() {
+        out.extend_from_slice(compressed);
+    } else {
+        append_interleaved(planes, width, rows, out);
+    }
 }
 
 /// Where bytes repeat: a sample has two in each half; constant planes repeat them. Planes that
@@ -27,9 +46,8 @@ fn distances(planes: usize, width: usize) -> [usize; 4] {
     [2, plane, 3 * plane, planes * plane].map(|far| if far <= FARTHEST { far } else { 2 })
 }
 
-/// The bytes of both halves.
-fn separate(planes: &[&Plane], width: usize, rows: Range<usize>) -> Vec<u8> {
-    let mut bytes = vec![0; rows.len() * planes.len() * width * size_of::<u32>()];
+/// Fills both halves.
+fn separate(planes: &[&Plane], width: usize, rows: Range<usize>, bytes: &mut [u8]) {
     let (even, odd) = bytes.split_at_mut(rows.len() * planes.len() * width * 2);
     let mut places = even.chunks_exact_mut(2 * width).zip(odd.chunks_exact_mut(2 * width));
     for row in rows {
@@ -44,7 +62,6 @@ fn separate(planes: &[&Plane], width: usize, rows: Range<usize>) -> Vec<u8> {
             }
         }
     }
-    bytes
 }
 
 /// One row of one plane. Of a sample's bytes 0 to 3, 0 and 2 are even.
@@ -80,8 +97,7 @@ fn to_differences(bytes: &mut [u8]) {
 }
 
 /// The rows as they are, little endian.
-fn interleaved(planes: &[&Plane], width: usize, rows: Range<usize>) -> Vec<u8> {
-    let mut bytes = Vec::with_capacity(rows.len() * planes.len() * width * size_of::<u32>());
+fn append_interleaved(planes: &[&Plane], width: usize, rows: Range<usize>, bytes: &mut Vec<u8>) {
     for row in rows {
         for plane in planes {
             let range = row * width..(row + 1) * width;
@@ -95,5 +111,4 @@ fn interleaved(planes: &[&Plane], width: usize, rows: Range<usize>) -> Vec<u8> {
             }
         }
     }
-    bytes
 }

@@ -102,7 +102,7 @@ pub(super) fn surfaces(
             Some((same, edges)) if *same == number => edges,
             _ => {
                 let corners = tiling.mesh.triangle(id);
-                &last.insert((number, Edges::new(tiling.plane, corners))).1
+                &last.insert((number, Edges::new(&tiling.plane, corners))).1
             }
         };
         let inverse_depth = match tiling.kernel {

@@ -115,6 +115,9 @@ fn append_triangles(
     let mut scaled = Vec::new();
     let mut triangles = Vec::new();
     let mut start = 0;
+    // Two corners of a polygon are in no triangle of their own.
+    let most = scan.corners.len().saturating_sub(2 * scan.faces.len());
+    reserve(part, most, corners);
     for (number, face) in (0..).zip(&scan.faces) {
         let range = start..face.corners_end;
         start = face.corners_end;
@@ -158,6 +161,20 @@ fn append_triangles(
     if part.smoothing_groups.iter().all(|&group| group == 1) {
         part.smoothing_groups = Vec::new();
     }
+}
+
+/// Makes room for triangles.
+fn reserve(part: &mut MeshPart, count: usize, corners: Corners<'_>) {
+    part.corners.reserve_exact(count);
+    part.corner_normals.reserve_exact(if corners.normals.is_empty() { 0 } else { count });
+    part.corner_uvs.reserve_exact(if corners.uvs.is_empty() { 0 } else { count });
+    let lists = [
+        &mut part.triangle_materials,
+        &mut part.lines,
+        &mut part.polygons,
+        &mut part.smoothing_groups,
+    ];
+    lists.into_iter().for_each(|list| list.reserve_exact(count));
 }
 
 fn append_face(

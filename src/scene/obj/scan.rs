@@ -59,6 +59,7 @@ fn scan_stretches(
         return None;
     }
     let mut state = State::new(skip_bad);
+    state.reserve(&stretches);
     let mut line = 1;
     for stretch in &stretches {
         let mut from = Before::default();

@@ -69,6 +69,16 @@ impl<'a> State<'a> {
         }
     }
 
+    /// Makes room for what stretches hold.
+    pub(super) fn reserve(&mut self, stretches: &[Stretch]) {
+        let sum = |count: fn(&Stretch) -> usize| stretches.iter().map(count).sum();
+        self.scan.positions.reserve_exact(sum(|stretch| stretch.positions.len()));
+        self.scan.uvs.reserve_exact(sum(|stretch| stretch.uvs.len()));
+        self.scan.normals.reserve_exact(sum(|stretch| stretch.normals.len()));
+        self.scan.corners.reserve_exact(sum(|stretch| stretch.corners.len()));
+        self.scan.faces.reserve_exact(sum(|stretch| stretch.faces.len()));
+    }
+
     /// Appends plain statements of a stretch that begins at a line.
     pub(super) fn append(&mut self, stretch: &Stretch, from: Before, to: Before, line: u32) {
         let scan = &mut self.scan;
