@@ -19,12 +19,11 @@ use crate::mutant::{self, Mutant};
 use crate::pixel::Pixel;
 use crate::visibility::{Cover, Facing, Level, LevelCounts, Visible};
 use fearless_simd::prelude::*;
-use fearless_simd::{dispatch, f64x8};
-use std::rc::Rc;
+use fearless_simd::{dispatch, f64x8, u32x16};
 
 /// What a tile's visible triangles have in common for all their pixels, by number; the inner `None`
 /// where only the exact stage answers.
-type Known = Vec<Option<Option<Rc<(TriangleRows, Shown)>>>>;
+type Known = Vec<Option<Option<Box<(TriangleRows, Shown)>>>>;
 
 /// Turns a tile's z-buffer into visible triangles, and writes what was counted.
 pub(super) fn write(
@@ -34,46 +33,58 @@ pub(super) fn write(
     visible: &mut Strip<'_, Option<Visible>>,
     cover: Option<&mut Strip<'_, Cover>>,
 ) {
-    let (grid, window) = (&tiling.blocks, doubt.window);
-    let mut known: Known = vec![None; tile.drawn.len()];
-    let side = BLOCK_SIDE as usize;
-    for y in window.y0()..window.y1() {
-        let row = visible.row_from(Pixel { x: window.x0(), y });
-        row[..window.width() as usize].fill(None);
-    }
-    for row in 0..(window.height() as usize).div_ceil(side) {
-        for column in 0..(window.width() as usize).div_ceil(side) {
-            let block = row * grid.per_side + column;
-            let winners = tile.blocks.winner[block].0;
-            let mut left = (0..16).filter(|&lane| winners[lane] != NOTHING).fold(0_u32, bit);
-            while left != 0 {
-                // All lanes of one winner together.
-                let number = winners[left.trailing_zeros() as usize] & !SAME_DEPTH;
-                let same = (0..16).filter(|&lane| winners[lane] & !SAME_DEPTH == number);
-                let lanes = same.fold(0, bit);
-                left &= !lanes;
-                write_lanes(
-                    tiling,
-                    tile,
-                    doubt,
-                    &mut known,
-                    visible,
-                    [block, number as usize],
-                    lanes,
-                );
-            }
-        }
-    }
+    let simd = tiling.simd.dispatched();
+    dispatch!(simd, simd => write_blocks(simd, tiling, tile, doubt, visible));
     if let Some(cover) = cover {
-        for pixel in window.pixels() {
-            let (block, lane) = blocks::place(grid, window, pixel);
+        for pixel in doubt.window.pixels() {
+            let (block, lane) = blocks::place(&tiling.blocks, doubt.window, pixel);
             cover.row_from(pixel)[0] = tile.blocks.cover(block, lane);
         }
     }
 }
 
-fn bit(bits: u32, lane: usize) -> u32 {
-    bits | 1 << lane
+#[inline(always)]
+fn write_blocks<S: Simd>(
+    simd: S,
+    tiling: &Tiling<'_>,
+    tile: &Tile,
+    doubt: &mut Doubt<'_>,
+    visible: &mut Strip<'_, Option<Visible>>,
+) {
+    let (grid, window, side) = (&tiling.blocks, doubt.window, BLOCK_SIDE as usize);
+    let mut known: Known = std::iter::repeat_with(|| None).take(tile.drawn.len()).collect();
+    let left = (window.x0() - visible.tiles[0].x0()) as usize;
+    let right = left + window.width() as usize;
+    for row in 0..(window.height() as usize).div_ceil(side) {
+        let rows = row * side..(row * side + side).min(window.height() as usize);
+        for column in 0..(window.width() as usize).div_ceil(side) {
+            let block = row * grid.per_side + column;
+            let from = left + column * side;
+            let columns = from..right.min(from + side);
+            let winners = u32x16::from_slice(simd, &tile.blocks.winner[block].0);
+            let winners = winners & u32x16::splat(simd, !SAME_DEPTH);
+            let nothing = winners.simd_eq(u32x16::splat(simd, NOTHING)).to_bitmask() & 0xffff;
+            if nothing != 0 {
+                for row in &mut visible.rows[rows.clone()] {
+                    row[columns.clone()].fill(None);
+                }
+            }
+            let mut waiting = !nothing & 0xffff;
+            while waiting != 0 {
+                // All lanes of one winner together.
+                let first = waiting.trailing_zeros() as usize & 15;
+                let number = tile.blocks.winner[block].0[first] & !SAME_DEPTH;
+                let lanes = winners.simd_eq(u32x16::splat(simd, number)).to_bitmask() & 0xffff;
+                waiting &= !lanes;
+                let known = &mut known[number as usize];
+                let place = [block, number as usize];
+                let mut put = |lane: usize, answer: Option<Visible>| {
+                    visible.rows[rows.start + lane / side][from + lane % side] = answer;
+                };
+                write_lanes(simd, tiling, tile, doubt, known, place, lanes as u32, &mut put);
+            }
+        }
+    }
 }
 
 /// Weights, t and whether both and the coverage are known without the exact stage, of eight lanes.
@@ -84,23 +95,25 @@ struct Eight {
     known: u64,
 }
 
-/// Writes one triangle's lanes of a block.
-fn write_lanes(
+/// Answers one triangle's lanes of a block.
+#[inline(always)]
+#[allow(clippy::too_many_arguments, reason = "one loop over everything that a tile has")]
+fn write_lanes<S: Simd>(
+    simd: S,
     tiling: &Tiling<'_>,
     tile: &Tile,
     doubt: &mut Doubt<'_>,
-    known: &mut Known,
-    visible: &mut Strip<'_, Option<Visible>>,
+    known: &mut Option<Option<Box<(TriangleRows, Shown)>>>,
     [block, number]: [usize; 2],
     lanes: u32,
+    put: &mut impl FnMut(usize, Option<Visible>),
 ) {
     let id = TriangleId::new(tile.drawn[number].id);
-    let triangle = known[number].get_or_insert_with(|| {
+    let triangle = known.get_or_insert_with(|| {
         let shown = Shown::new(&tiling.plane, tiling.mesh.triangle(id))?;
         let rows = doubt.rows_of(&tile.drawn, number as u32)?;
-        Some(Rc::new((rows.as_ref().clone(), shown)))
+        Some(Box::new((rows.as_ref().clone(), shown)))
     });
-    let triangle = triangle.clone();
     for half in 0..2 {
         let mut left = lanes >> (8 * half) & 0xff;
         if left == 0 {
@@ -109,15 +122,13 @@ fn write_lanes(
         let eight = match triangle.as_deref() {
             Some((rows, shown)) => {
                 let first = blocks::pixel(&tiling.blocks, doubt.window, block, 8 * half);
-                let simd = tiling.simd.dispatched();
-                dispatch!(simd, simd => eight(simd, rows, shown, first))
+                eight(simd, rows, shown, first)
             }
             None => Eight::default(),
         };
         while left != 0 {
             let lane = left.trailing_zeros() as usize & 7;
             left &= left - 1;
-            let pixel = blocks::pixel(&tiling.blocks, doubt.window, block, 8 * half + lane);
             let same_depth = tile.blocks.winner[block].0[8 * half + lane] & SAME_DEPTH != 0;
             let answer = match triangle.as_deref() {
                 Some((_, shown)) if eight.known >> lane & 1 == 1 => {
@@ -126,9 +137,12 @@ fn write_lanes(
                     let numbers = (shown.volume_sign, mutant::shifted(weights), eight.t[lane]);
                     Some(assembled(id, covered, same_depth, numbers))
                 }
-                _ => one(doubt, tile, number, pixel, same_depth),
+                _ => {
+                    let pixel = blocks::pixel(&tiling.blocks, doubt.window, block, 8 * half + lane);
+                    one(doubt, tile, number, pixel, same_depth)
+                }
             };
-            visible.row_from(pixel)[0] = answer;
+            put(8 * half + lane, answer);
         }
     }
 }
