@@ -37,7 +37,7 @@ use crate::accel::BuildPreset;
 use crate::film::Film;
 use crate::pixel::Window;
 use crate::scene::Scene;
-use crate::shade::Notes;
+use crate::shade::{Notes, Precision};
 use crate::visibility::{Counting, LevelCounts, VisibilityBuffer};
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
@@ -70,6 +70,8 @@ pub struct RenderOptions {
     pub preset: BuildPreset,
     /// Folder in which BVHs are kept between runs; `None` for none.
     pub bvh_cache: Option<PathBuf>,
+    /// The numbers that colours are computed with.
+    pub shading: Precision,
     /// Whether the visible triangles are listed, and how finely they are looked for.
     pub listing: Option<Listing>,
 }
@@ -83,6 +85,7 @@ impl Default for RenderOptions {
             planes: PlaneGroups::standard(),
             preset: BuildPreset::Medium,
             bvh_cache: None,
+            shading: Precision::Double,
             listing: None,
         }
     }

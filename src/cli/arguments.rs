@@ -18,6 +18,7 @@ use truecast::pixel::{MAX_SIDE, Resolution};
 use truecast::raster::{DepthBuffer, DepthFormat, SubpixelBits};
 use truecast::render::visible::SubsampleGrid;
 use truecast::scene::sampling::SampleGrid;
+use truecast::shade::Precision;
 
 /// Casts one ray per pixel at a scene of triangle meshes, and proves which triangle is visible.
 #[derive(Debug, Parser)]
@@ -68,6 +69,11 @@ pub(super) struct RenderArguments {
     /// see-through surfaces nor shadows, and each path has its own
     #[arg(long, value_enum, default_value_t = AccuracyWord::Exact)]
     pub(super) accuracy: AccuracyWord,
+    /// Numbers that colours are computed with: double, or single, which is quicker and within 2^-16 of
+    /// a light's full radiance per root of its exponents (see `shade::single_error`). Ids, depths and
+    /// every other plane are the same
+    #[arg(long, value_enum, default_value_t = ShadingWord::Double)]
+    pub(super) shading: ShadingWord,
     /// Bits of the watertight rasterizer's grid below the pixel, 0 to 12 [default: 8]
     #[arg(long, value_name = "N", value_parser = parse_subpixel_bits)]
     pub(super) subpixel_bits: Option<SubpixelBits>,
@@ -300,6 +306,24 @@ pub(super) enum AccuracyWord {
     Watertight,
     /// f32, believed
     Fast,
+}
+
+/// `--shading`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum ShadingWord {
+    /// f64
+    Double,
+    /// f32 where its error is bounded
+    Single,
+}
+
+impl ShadingWord {
+    pub(super) const fn precision(self) -> Precision {
+        match self {
+            Self::Double => Precision::Double,
+            Self::Single => Precision::Single,
+        }
+    }
 }
 
 fn parse_size(text: &str) -> Result<Resolution, String> {

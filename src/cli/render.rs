@@ -64,6 +64,7 @@ fn run_here(arguments: &RenderArguments, writing: &Writing) -> Result<u8, Failur
         preset,
         bvh_cache: arguments.bvh_cache.clone(),
         accuracy,
+        shading: arguments.shading.precision(),
         window,
         planes,
         listing: arguments

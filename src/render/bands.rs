@@ -20,7 +20,7 @@ use crate::accel::Accelerator;
 use crate::film::Film;
 use crate::pixel::Window;
 use crate::scene::Scene;
-use crate::shade::Effects;
+use crate::shade::{Effects, Precision, ShadeOptions};
 use crate::visibility::{Counting, VisibilityBuffer};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::sync::{Mutex, OnceLock, PoisonError};
@@ -143,7 +143,12 @@ impl<'a> Ready<'a> {
     /// The description of the film, and the time that it took.
     fn describe(&self) -> (String, Duration) {
         let started = Instant::now();
-        (describe(self.scene, self.options.accuracy).to_string(), started.elapsed())
+        let mut description = describe(self.scene, self.options.accuracy);
+        // Double is what a picture is unless it says otherwise.
+        if self.options.shading == Precision::Single {
+            description["shading"] = "single".into();
+        }
+        (description.to_string(), started.elapsed())
     }
 
     /// Makes the film of a band, and says what there is to be said of it.
@@ -183,7 +188,9 @@ impl<'a> Ready<'a> {
         };
         let occluders = self.occluders.of(answerer);
         let asked = (&*buffer, layers.as_ref());
-        expose_into(scene, answerer, occluders, asked, *effects, exposure, progress);
+        let shading =
+            ShadeOptions { precision: self.options.shading, ..ShadeOptions::new(*effects) };
+        expose_into(scene, answerer, occluders, asked, &shading, exposure, progress);
         let exposed = Instant::now();
         develop_into(scene, buffer, exposure, &self.options.planes, film);
         account.covered_pixels = buffer.covered_pixels();

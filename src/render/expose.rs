@@ -15,7 +15,7 @@ use crate::color::LinearRgb;
 use crate::mesh::TriangleId;
 use crate::pixel::Window;
 use crate::scene::Scene;
-use crate::shade::{Effects, Notes};
+use crate::shade::{Effects, Notes, ShadeOptions};
 use crate::visibility::{Layers, LevelCounts, VisibilityBuffer, Visible};
 
 /// What a film sees at each pixel of a window, row by row.
@@ -49,7 +49,8 @@ pub fn expose(
     let mut exposure = Exposure::default();
     let occluders = built.of(answerer);
     let seen = (nearest, Some(layers));
-    expose_into(scene, answerer, occluders, seen, effects, &mut exposure, progress);
+    let options = ShadeOptions::new(effects);
+    expose_into(scene, answerer, occluders, seen, &options, &mut exposure, progress);
     exposure
 }
 
@@ -85,26 +86,26 @@ pub(super) fn expose_into(
     answerer: &Answerer,
     occluders: Option<&Accelerator>,
     (nearest, layers): (&VisibilityBuffer, Option<&Layers>),
-    effects: Effects,
+    options: &ShadeOptions,
     exposure: &mut Exposure,
     progress: &dyn Progress,
 ) {
-    if !effects.has(Effects::SUPERSAMPLING) {
+    if !options.effects.has(Effects::SUPERSAMPLING) {
         progress.begin("shade", nearest.window.height() as usize);
         let seen = (nearest, layers);
-        return expose_sample(scene, occluders, seen, effects, exposure, &|| progress.step());
+        return expose_sample(scene, occluders, seen, options, exposure, &|| progress.step());
     }
     let mut sum = Sum::new(nearest.window);
     let mut sample = Exposure::default();
     let stage = ("supersample", progress);
     let offsets = scene.samples.offsets();
     for_each_subsample(scene, answerer, nearest.window, offsets, stage, |shifted, answer| {
-        let layers = match effects.has(Effects::OPACITY) {
+        let layers = match options.effects.has(Effects::OPACITY) {
             true => Some(answerer.layers(shifted, answer, &|| ())),
             false => None,
         };
         let seen = (answer, layers.as_ref());
-        expose_sample(shifted, occluders, seen, effects, &mut sample, &|| ());
+        expose_sample(shifted, occluders, seen, options, &mut sample, &|| ());
         sum.add(answer.window, &sample);
     });
     *exposure = sum.mean(f64::from(scene.samples.count()));
@@ -150,18 +151,18 @@ fn expose_sample(
     scene: &Scene,
     occluders: Option<&Accelerator>,
     (nearest, layers): (&VisibilityBuffer, Option<&Layers>),
-    effects: Effects,
+    options: &ShadeOptions,
     exposure: &mut Exposure,
     done: &(dyn Fn() + Sync),
 ) {
     exposure.radiance.resize(nearest.window.len(), [0.0; 3]);
     exposure.notes =
-        shade_shadowed(scene, nearest, effects, occluders, &mut exposure.radiance, done);
+        shade_shadowed(scene, nearest, options, occluders, &mut exposure.radiance, done);
     let alpha = nearest.visible.iter().map(|visible| f64::from(u8::from(visible.is_some())));
     exposure.alpha.clear();
     exposure.alpha.extend(alpha);
-    if let Some(layers) = layers.filter(|_| effects.has(Effects::OPACITY)) {
-        blend(scene, occluders, (nearest, layers), effects, exposure);
+    if let Some(layers) = layers.filter(|_| options.effects.has(Effects::OPACITY)) {
+        blend(scene, occluders, (nearest, layers), options, exposure);
     }
 }
 
@@ -170,7 +171,7 @@ fn blend(
     scene: &Scene,
     occluders: Option<&Accelerator>,
     (nearest, layers): (&VisibilityBuffer, &Layers),
-    effects: Effects,
+    options: &ShadeOptions,
     exposure: &mut Exposure,
 ) {
     let mut blends: Vec<(usize, Blend)> = Vec::new();
@@ -185,7 +186,7 @@ fn blend(
     for k in 0..layers.most() {
         let Some(peel) = peel(scene, layers, k) else { break };
         let mut radiance = vec![[0.0; 3]; peel.window.len()];
-        let notes = shade_shadowed(scene, &peel, effects, occluders, &mut radiance, &|| ());
+        let notes = shade_shadowed(scene, &peel, options, occluders, &mut radiance, &|| ());
         exposure.notes.add(notes);
         for (index, blend) in &mut blends {
             if let Some(visible) = layers.of(*index).get(k) {

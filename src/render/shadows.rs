@@ -24,20 +24,19 @@ pub fn light_point(light: &Light) -> Option<LightPoint> {
     }
 }
 
-/// Shades a buffer, one number triple per pixel, with the shadows that `effects` has, by rays through
+/// Shades a buffer, one number triple per pixel, with the shadows that the options have, by rays through
 /// `accelerator`; without one nothing casts a shadow. `done` is called once per finished row, from any
 /// thread.
 pub(super) fn shade_shadowed(
     scene: &Scene,
     buffer: &VisibilityBuffer,
-    effects: Effects,
+    options: &ShadeOptions,
     accelerator: Option<&Accelerator>,
     radiance: &mut [LinearRgb],
     done: &(dyn Fn() + Sync),
 ) -> Notes {
-    let options = ShadeOptions::new(effects);
-    let Some(accelerator) = accelerator.filter(|_| effects.has(Effects::SHADOWS)) else {
-        return shade_into(scene, buffer, &options, None, radiance, done);
+    let Some(accelerator) = accelerator.filter(|_| options.effects.has(Effects::SHADOWS)) else {
+        return shade_into(scene, buffer, options, None, radiance, done);
     };
     let lights: Vec<Option<LightPoint>> = scene.lights.iter().map(light_point).collect();
     let asker = || -> Asker<'_> {
@@ -49,5 +48,5 @@ pub(super) fn shade_shadowed(
             })
         })
     };
-    shade_into(scene, buffer, &options, Some(&asker), radiance, done)
+    shade_into(scene, buffer, options, Some(&asker), radiance, done)
 }

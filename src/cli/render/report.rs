@@ -11,7 +11,7 @@ use truecast::raster::Unproven;
 use truecast::render::visible::SubsampleGrid;
 use truecast::render::{Account, Accuracy, Prediction, RenderOptions, TreeSource};
 use truecast::scene::Scene;
-use truecast::shade::Notes;
+use truecast::shade::{Notes, Precision};
 
 /// All that the report is made of.
 pub(super) struct Report<'a> {
@@ -192,6 +192,10 @@ impl Report<'_> {
                 "bvh_bytes_per_triangle": account.tree_bytes.map(|bytes| per_triangle(bytes, scene)),
             },
             "accuracy": accuracy.name(),
+            "shading": match options.shading {
+                Precision::Double => "double",
+                Precision::Single => "single",
+            },
             "subpixel_bits": match accuracy {
                 Accuracy::Raster(Unproven::Watertight { subpixel_bits, .. }) => {
                     Some(subpixel_bits.get())

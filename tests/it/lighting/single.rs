@@ -4,9 +4,12 @@
 use super::neutrality;
 use super::stage::{V3, bits};
 use crate::called_for::scenes;
+use crate::support::program::truecast;
 use std::path::Path;
+use truecast::film::Samples;
 use truecast::pixel::{Resolution, Window};
 use truecast::raster::rasterize;
+use truecast::render::{RenderOptions, Unwatched, VisibilityPath, render};
 use truecast::scene::light::Light;
 use truecast::scene::switches::{DIALECTS, SWITCHES, SwitchValue, Switches};
 use truecast::scene::{Overrides, Scene};
@@ -230,4 +233,41 @@ fn numbers_that_f32_does_not_take_are_shaded_in_f64() {
         }
         assert!(is_double(&scene), "{ns} {ke:e}");
     }
+}
+
+#[test]
+fn pictures_in_f32_have_its_colours_and_every_other_plane_of_f64() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("scenes/default.toml");
+    let overrides = Overrides { resolution: Resolution::new(97, 61), ..Overrides::default() };
+    let scene = Scene::load(&path, &overrides).unwrap();
+    let with = |shading| {
+        let path = VisibilityPath::Raster;
+        let options = RenderOptions { path, shading, ..RenderOptions::default() };
+        render(&scene, &options, &Unwatched).film
+    };
+    let [double, single] = [Precision::Double, Precision::Single].map(with);
+    assert!(single.description.contains("\"shading\":\"single\""), "{}", single.description);
+    assert!(!double.description.contains("shading\":\"single"), "{}", double.description);
+    let options = ShadeOptions::new(Effects::of(&scene));
+    let options = ShadeOptions { precision: Precision::Single, ..options };
+    let colors = shaded(&scene, &look(&scene), options);
+    let mut channels = 0;
+    for (in_double, in_single) in double.planes.iter().zip(&single.planes) {
+        let Some(k) = ["R", "G", "B"].iter().position(|name| *name == in_single.name) else {
+            assert!(in_double == in_single, "{}", in_single.name);
+            continue;
+        };
+        channels += 1;
+        let Samples::Float(values) = &in_single.samples else { panic!("{}", in_single.name) };
+        assert!(values.iter().zip(&colors).all(|(value, color)| *value == color[k] as f32));
+        assert!(in_double.samples != in_single.samples, "f32 was not at work");
+    }
+    assert_eq!(channels, 3);
+    let folder = tempfile::TempDir::new().unwrap();
+    let scene = path.to_str().unwrap();
+    let arguments = ["render", scene, "--size", "97x61", "--json", "--shading", "single"];
+    let (status, stdout, _) =
+        truecast(folder.path(), &[&arguments[..], &["-o", "a.exr", "-o", "a.png"]].concat());
+    assert_eq!(status, 0);
+    assert!(stdout.contains("\"shading\": \"single\""), "{stdout}");
 }
