@@ -109,8 +109,7 @@ fn draw_pairs<S: Simd, const CERTAIN: bool>(
         sure.select(u32x16::splat(simd, batch.ids[lane]), ids).store_array(&mut samples.ids[block]);
         let sure_bits = sure.to_bitmask() as u16;
         let may_bits = may.to_bitmask() as u16;
-        // Ties are rare, and so is looking at them.
-        if samples.tied >> block & 1 != 0 && !mutant::is(Mutant::StaleTies) {
+        if !mutant::is(Mutant::StaleTies) {
             samples.ties[block] &= !sure_bits;
         }
         dirty |= u64::from(may_bits != 0) << block;

@@ -48,7 +48,6 @@ pub(super) fn settle(
     let Open { triangle, block, lanes, covered } = open;
     let mut left = lanes & samples.inside[block];
     let mut planes = Planes { eye: frame.view.eye(), known: [None; 2] };
-    samples.tied |= 1 << block;
     while left != 0 {
         let lane = left.trailing_zeros() as usize;
         let nearest = samples.ids[block][lane];

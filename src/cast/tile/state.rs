@@ -44,8 +44,6 @@ pub(in crate::cast) struct Samples {
     pub(super) inside: [u16; BLOCKS],
     /// Samples on an edge of their nearest triangle, or at which another lies at the same depth.
     pub(super) ties: [u16; BLOCKS],
-    /// A bit for every block that may have ties.
-    pub(super) tied: u64,
     /// Samples at which some decision took f64, and at which one took more.
     pub(super) double: [u16; BLOCKS],
     pub(super) exact: [u16; BLOCKS],
@@ -66,7 +64,6 @@ impl Samples {
         block_z: [f32::NEG_INFINITY; BLOCKS],
         inside: [u16::MAX; BLOCKS],
         ties: [0; BLOCKS],
-        tied: 0,
         double: [0; BLOCKS],
         exact: [0; BLOCKS],
         least_z: f32::NEG_INFINITY,
@@ -121,7 +118,6 @@ impl Samples {
         self.block_z.fill(f32::NEG_INFINITY);
         self.inside.fill(u16::MAX);
         self.ties.fill(0);
-        self.tied = 0;
         self.double.fill(0);
         self.exact.fill(0);
         if window.len() < SIDE * SIDE {
