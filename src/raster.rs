@@ -64,6 +64,12 @@ pub use watertight::{DEPTH_ERROR, DepthBuffer, DepthFormat, SubpixelBits, raster
 /// Side of a tile, in pixels: its z-buffer (1024 pixels of 12 bytes) fits a first-level cache.
 pub const TILE_SIDE: u32 = 32;
 
+/// Side of a tile where only ids and t are asked for, and the whole window at once: what a tile takes
+/// by itself is spread over four times the pixels. Frames take 0.88 of the time on an interior of 57
+/// thousand triangles, 0.92 on a hall of 457 thousand, and the same on a soup and a terrain of
+/// millions.
+pub const NEAREST_TILE_SIDE: u32 = 64;
+
 /// How the work is cut and which instructions do it. No answer depends on it: only `levels` and the
 /// time taken do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,9 +81,9 @@ pub struct RasterOptions {
 }
 
 impl Default for RasterOptions {
-    /// Tiles of [`TILE_SIDE`], the best instructions of the machine.
+    /// Tiles of [`NEAREST_TILE_SIDE`], the best instructions of the machine.
     fn default() -> Self {
-        Self { tile_side: TILE_SIDE, simd: SimdLevel::best() }
+        Self { tile_side: NEAREST_TILE_SIDE, simd: SimdLevel::best() }
     }
 }
 
@@ -90,7 +96,7 @@ pub fn rasterize(
     counting: Counting,
     done: &(dyn Fn() + Sync),
 ) -> VisibilityBuffer {
-    rasterize_with(scene, window, counting, RasterOptions::default(), done)
+    rasterize_in_tiles(scene, window, counting, TILE_SIDE, done)
 }
 
 /// [`rasterize`] with tiles of `side` × `side` pixels (at least 1).

@@ -1,6 +1,6 @@
 //! How much the exact rasterizer does for a window, in numbers without noise.
 
-use super::TILE_SIDE;
+use super::NEAREST_TILE_SIDE;
 use super::arithmetic::Kernel;
 use super::tile::{Tile, Tiling};
 use crate::pixel::Window;
@@ -24,9 +24,10 @@ pub struct RasterCounts {
 /// every machine of an architecture counts the same.
 pub fn count_raster(scene: &Scene, window: Window) -> RasterCounts {
     let simd = SimdLevel::Baseline;
-    let tiling = Tiling::new(&scene.camera, &scene.mesh, window, TILE_SIDE, simd, Kernel::Certain);
+    let tiling =
+        Tiling::new(&scene.camera, &scene.mesh, window, NEAREST_TILE_SIDE, simd, Kernel::Certain);
     let counts: Vec<RasterCounts> = window
-        .tiles(TILE_SIDE)
+        .tiles(NEAREST_TILE_SIDE)
         .into_par_iter()
         .map_init(
             || Tile::new(false),

@@ -15,13 +15,13 @@ mod double;
 mod stored;
 mod write;
 
-use super::TILE_SIDE;
 use super::arithmetic::Kernel;
 use super::strips::{for_each_strip, strips};
 use super::tile::{Tile, Tiling};
 use super::watertight::{
     DepthBuffer, SubpixelBits, rasterize_watertight, rasterize_watertight_into,
 };
+use super::{NEAREST_TILE_SIDE, TILE_SIDE};
 use crate::pixel::Window;
 use crate::scene::Scene;
 use crate::simd::SimdLevel;
@@ -64,6 +64,15 @@ impl Unproven {
         }
     }
 
+    /// Side of its tiles, in pixels. Rounded rows are of a tile, so that ids without proof may depend on
+    /// it.
+    pub const fn tile_side(self) -> u32 {
+        match self {
+            Self::Watertight { .. } => TILE_SIDE,
+            Self::Double | Self::Fast { .. } => NEAREST_TILE_SIDE,
+        }
+    }
+
     /// The depth buffer, where there is one.
     pub const fn depth_buffer(self) -> Option<DepthBuffer> {
         match self {
@@ -80,7 +89,7 @@ impl Unproven {
 /// alike. `Double` and `Fast` take weights from f64 rows, cut off at 0 where the sample lies outside,
 /// and never count cover. The level is that of the arithmetic, and certain of nothing. With a depth
 /// buffer, another triangle at the same stored depth is a tie. `done` is called once per finished
-/// tile of `window.tiles(TILE_SIDE)`, from any thread.
+/// tile of `window.tiles(unproven.tile_side())`, from any thread.
 pub fn rasterize_unproven(
     scene: &Scene,
     window: Window,
@@ -95,10 +104,10 @@ pub fn rasterize_unproven(
             return rasterize_watertight(scene, window, bits, buffer, counting, done);
         }
     };
-    let tiling = Tiling::new(&scene.camera, &scene.mesh, window, TILE_SIDE, simd, kernel);
+    let tiling = Tiling::new(&scene.camera, &scene.mesh, window, NEAREST_TILE_SIDE, simd, kernel);
     let mut visible = vec![None; window.len()];
     for_each_strip(
-        strips(window, TILE_SIDE, &mut visible),
+        strips(window, NEAREST_TILE_SIDE, &mut visible),
         || Tile::new(false),
         |tile, mut visible| {
             for window in visible.tiles.clone() {
@@ -127,9 +136,9 @@ pub fn rasterize_unproven_into(
         Ok(kernel) => kernel,
         Err((bits, depths)) => return rasterize_watertight_into(scene, bits, depths, buffer),
     };
-    let tiling = Tiling::new(&scene.camera, &scene.mesh, window, TILE_SIDE, simd, kernel);
-    let ids = strips(window, TILE_SIDE, &mut buffer.ids);
-    let work = ids.into_iter().zip(strips(window, TILE_SIDE, &mut buffer.t)).collect();
+    let tiling = Tiling::new(&scene.camera, &scene.mesh, window, NEAREST_TILE_SIDE, simd, kernel);
+    let ids = strips(window, NEAREST_TILE_SIDE, &mut buffer.ids);
+    let work = ids.into_iter().zip(strips(window, NEAREST_TILE_SIDE, &mut buffer.t)).collect();
     for_each_strip(
         work,
         || Tile::new(false),

@@ -55,7 +55,8 @@ impl Answerer {
     pub(super) const fn stage(&self) -> (&'static str, u32) {
         match self {
             Self::Cast(_) | Self::CastUnproven(..) => ("cast", cast::TILE_SIDE),
-            Self::Raster | Self::RasterUnproven(_) => ("rasterize", raster::TILE_SIDE),
+            Self::Raster => ("rasterize", raster::TILE_SIDE),
+            Self::RasterUnproven(unproven) => ("rasterize", unproven.tile_side()),
         }
     }
 

@@ -4,7 +4,7 @@
 use super::{Answerer, Progress};
 use crate::cast::{CastOptions, CastPicture, cast_into};
 use crate::pixel::Window;
-use crate::raster::{RasterOptions, RasterPicture, rasterize_into};
+use crate::raster::{RasterOptions, RasterPicture, TILE_SIDE, rasterize_into};
 use crate::scene::Scene;
 use crate::visibility::{Counting, VisibilityBuffer};
 
@@ -32,7 +32,7 @@ impl<'a> Eye<'a> {
                 Self::Cast(Box::new(picture), counting)
             }
             Answerer::Raster => {
-                let options = RasterOptions::default();
+                let options = RasterOptions { tile_side: TILE_SIDE, ..RasterOptions::default() };
                 Self::Raster(Box::new(RasterPicture::new(scene, window, counting, options)))
             }
             other => Self::Other(scene, other, counting),
@@ -43,7 +43,7 @@ impl<'a> Eye<'a> {
     pub(super) fn see(&self, band: Window, buffer: &mut VisibilityBuffer, progress: &dyn Progress) {
         let (stage, side) = match self {
             Self::Cast(..) => ("cast", crate::cast::TILE_SIDE),
-            Self::Raster(_) => ("rasterize", crate::raster::TILE_SIDE),
+            Self::Raster(_) => ("rasterize", TILE_SIDE),
             Self::Other(_, answerer, _) => answerer.stage(),
         };
         progress.begin(stage, band.tiles(side).len());

@@ -73,7 +73,7 @@ fn turned() -> Triangle {
 /// A camera on no grid that looks along z, before triangles.
 fn ahead(triangles: &[Triangle]) -> Scene {
     let (eye, target) = ([0.3, 0.2, -0.7], [0.1, 0.05, 8.0]);
-    let frame = Resolution::new(40, 33).unwrap();
+    let frame = Resolution::new(100, 83).unwrap();
     let camera = PinholeCamera::look_at(frame, eye, target, [0.1, 1.0, 0.0], 50.0).unwrap();
     Scene::from_triangles(camera, triangles)
 }
