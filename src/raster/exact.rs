@@ -167,8 +167,13 @@ const BELOW_MODULUS: f64 = (1_u128 << 127) as f64;
 ///
 /// Triangles with V ≠ 0 have corners that are not on one line, so that planes are what is compared.
 fn same_plane(mesh: &TriangleMesh, a: TriangleId, b: TriangleId) -> bool {
-    let corners = [mesh.triangle(a), mesh.triangle(b)]
-        .map(|corners| corners.map(|v| v.map(|c| Dyadic::new(f64::from(c)))));
+    let corners = [mesh.triangle(a), mesh.triangle(b)];
+    // Walls and panels in one plane mostly stand across an axis.
+    let first = corners[0][0];
+    if (0..3).any(|k| corners.as_flattened().iter().all(|corner| corner[k] == first[k])) {
+        return true;
+    }
+    let corners = corners.map(|corners| corners.map(|v| v.map(|c| Dyadic::new(f64::from(c)))));
     let numbers = corners.as_flattened().as_flattened();
     let unit = numbers.iter().map(|c| c.exponent).min().unwrap_or(i64::MAX);
     let short =
