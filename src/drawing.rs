@@ -6,6 +6,7 @@
 
 pub(crate) mod axis;
 pub mod glyphs;
+pub(crate) mod page;
 mod picture;
 mod svg;
 

@@ -7,20 +7,16 @@
 use crate::bench::Report;
 use crate::bench::workload::{Unit, Work};
 use crate::drawing::axis::Axis;
+use crate::drawing::page::{FAINT, GRID, MARGIN, TEXT, WIDTH};
 use crate::drawing::{Anchor, Drawing, Ink};
 
-const WIDTH: u16 = 960;
 const LINE: f64 = 20.0;
-const MARGIN: f64 = 16.0;
 
 /// The plot's left, right and height, page units.
 const LEFT: f64 = 96.0;
 const RIGHT: f64 = 920.0;
 const PLOT_HEIGHT: f64 = 360.0;
 
-const TEXT: Ink = [36, 41, 47];
-const FAINT: Ink = [110, 118, 126];
-const GRID: Ink = [222, 226, 230];
 /// One per variant, in order of first appearance.
 const VARIANTS: [Ink; 8] = [
     [9, 105, 218],

@@ -7,9 +7,8 @@
 use crate::bench::rounds::Row;
 use crate::bench::workload::Work;
 use crate::bench::{Measured, Report};
+use crate::drawing::page::{FAINT, MARGIN, TEXT, WIDTH};
 use crate::drawing::{Anchor, Drawing, Ink};
-
-const WIDTH: u16 = 960;
 
 /// Height of a line of the page, page units.
 const LINE: f64 = 22.0;
@@ -18,10 +17,7 @@ const LINE: f64 = 22.0;
 const BAR_START: f64 = 256.0;
 const BAR_LENGTH: f64 = 400.0;
 const BAR_HEIGHT: f64 = 12.0;
-const MARGIN: f64 = 16.0;
 
-const TEXT: Ink = [36, 41, 47];
-const FAINT: Ink = [110, 118, 126];
 const OURS: Ink = [9, 105, 218];
 const THEIRS: Ink = [140, 149, 159];
 const WRONG: Ink = [207, 34, 46];

@@ -6,11 +6,10 @@
 
 use crate::cost::{Knob, Measure, Report, Setting};
 use crate::drawing::axis::Axis;
+use crate::drawing::page::{FAINT, GRID, MARGIN, TEXT, WIDTH};
 use crate::drawing::{Anchor, Drawing, Ink, Point, glyphs};
 
-const WIDTH: u16 = 960;
 const LINE: f64 = 20.0;
-const MARGIN: f64 = 16.0;
 
 /// The plot's left, right and height, page units.
 const LEFT: f64 = 96.0;
@@ -20,9 +19,6 @@ const PLOT_HEIGHT: f64 = 280.0;
 const ZERO_BELOW: f64 = 28.0;
 const AXIS_BELOW: f64 = 44.0;
 
-const TEXT: Ink = [36, 41, 47];
-const FAINT: Ink = [110, 118, 126];
-const GRID: Ink = [222, 226, 230];
 const PAPER: Ink = [255, 255, 255];
 /// One per family, in order of first appearance.
 const FAMILIES: [Ink; 4] = [[9, 105, 218], [207, 34, 46], [26, 127, 55], [130, 80, 223]];
