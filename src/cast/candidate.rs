@@ -111,9 +111,7 @@ impl Candidate {
         let (a, b) = ((&a, self.covering.sign), (&b, other.covering.sign));
         let (f, level) = match unrounded::depth_sign(ray, a, b) {
             Some(f) => (f, Level::Double),
-            None if same_plane.learns(ids[0], ids[1])
-                || in_one_axis_plane(&self.triangle.vertices, &other.triangle.vertices) =>
-            {
+            None if same_plane.learns(ids, [&self.triangle.vertices, &other.triangle.vertices]) => {
                 (Signed { sign: 0, zero: true }, Level::Double)
             }
             None => (exact::depth_sign(ray, a, b), Level::Exact),
@@ -174,13 +172,6 @@ fn crude_interval(covering: Covering) -> [f64; 2] {
 pub(super) fn plane_interval(ray: &Ray, plane: &Plane) -> Option<[f64; 2]> {
     let sign = plane.value.sign()?;
     Some(interval(f64::from(sign), [plane.value, plane.speed(ray)]))
-}
-
-/// Whether two triangles lie in one plane across an axis: six equal coordinates are proof of it,
-/// and most panels that lie in one plane are built so. Others are asked of exact arithmetic.
-pub(super) fn in_one_axis_plane(a: &[[f32; 3]; 3], b: &[[f32; 3]; 3]) -> bool {
-    let lies = |axis: usize| a.iter().chain(b).all(|vertex| vertex[axis] == a[0][axis]);
-    lies(0) || lies(1) || lies(2)
 }
 
 fn interval(sign: f64, plane_and_speed: [Bounded; 2]) -> [f64; 2] {

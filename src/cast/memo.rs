@@ -13,6 +13,9 @@ const PLACES: usize = 256;
 /// Most pairs of a picture, about a megabyte: thousands of sheets in one plane have millions.
 const MOST_PAIRS: usize = 1 << 16;
 
+/// A triangle's corners, as the mesh has them.
+type Corners = [[f32; 3]; 3];
+
 /// Lower id first.
 type Pair = [TriangleId; 2];
 
@@ -39,13 +42,14 @@ impl<'a> SamePlane<'a> {
         self.table.get(place(pair)).is_some_and(|known| *known == Some(pair))
     }
 
-    /// Whether another tile knew it; takes a lock, so it is asked only before exact arithmetic.
-    pub(super) fn learns(&mut self, a: TriangleId, b: TriangleId) -> bool {
-        let known = self.picture.pairs().contains(&ordered(a, b));
-        if known {
+    /// Whether the corners show it at a glance, or another tile knew it, which takes a lock: asked only
+    /// before exact arithmetic, and remembered.
+    pub(super) fn learns(&mut self, [a, b]: [TriangleId; 2], corners: [&Corners; 2]) -> bool {
+        let is_known = lie_across_an_axis(corners) || self.picture.pairs().contains(&ordered(a, b));
+        if is_known {
             self.keep(ordered(a, b));
         }
-        known
+        is_known
     }
 
     /// Remembers that the two lie in one plane.
@@ -72,6 +76,12 @@ impl PicturePairs {
     }
 }
 
+/// Whether one coordinate of all six corners is the same, which is proof of one plane; most panels that
+/// lie in one are built so.
+fn lie_across_an_axis([a, b]: [&Corners; 2]) -> bool {
+    (0..3).any(|axis| a.iter().chain(b).all(|corner| corner[axis] == a[0][axis]))
+}
+
 fn ordered(a: TriangleId, b: TriangleId) -> Pair {
     [a.min(b), a.max(b)]
 }
@@ -86,17 +96,46 @@ fn place([lower, upper]: Pair) -> usize {
 mod tests {
     use super::*;
 
+    /// Corners that show nothing.
+    const APART: [Corners; 2] = [
+        [[0.0, 1.0, 2.0], [1.0, 2.0, 0.0], [2.0, 0.0, 1.0]],
+        [[3.0, 4.0, 5.0], [4.0, 5.0, 3.0], [5.0, 3.0, 4.0]],
+    ];
+
+    #[test]
+    fn six_equal_coordinates_are_one_plane_and_five_are_not() {
+        let id = TriangleId::new;
+        let picture = PicturePairs::default();
+        let mut memo = SamePlane::new(&picture);
+        let across = |axis: usize| {
+            APART.map(|corners| {
+                corners.map(|mut corner| {
+                    corner[axis] = 0.5;
+                    corner
+                })
+            })
+        };
+        for axis in 0..3 {
+            let [a, mut b] = across(axis);
+            let ids = [id(axis as u32), id(7)];
+            b[2][axis] = 0.5_f32.next_up();
+            assert!(!memo.learns(ids, [&a, &b]) && !memo.knows(ids[0], ids[1]));
+            b[2][axis] = 0.5;
+            assert!(memo.learns(ids, [&a, &b]) && memo.knows(ids[0], ids[1]));
+        }
+    }
+
     #[test]
     fn pairs_are_unordered_and_tiles_learn_from_each_other() {
         let id = TriangleId::new;
         let picture = PicturePairs::default();
         let [mut one, mut two] = [SamePlane::new(&picture), SamePlane::new(&picture)];
-        assert!(!one.knows(id(0), id(1)) && !one.learns(id(0), id(1)));
+        assert!(!one.knows(id(0), id(1)) && !one.learns([id(0), id(1)], [&APART[0], &APART[1]]));
         one.remember(id(7), id(3));
         assert!(one.knows(id(3), id(7)) && one.knows(id(7), id(3)));
         assert!(!two.knows(id(7), id(3)));
-        assert!(two.learns(id(7), id(3)) && two.knows(id(3), id(7)));
-        assert!(!two.learns(id(7), id(8)));
+        assert!(two.learns([id(7), id(3)], [&APART[0], &APART[1]]) && two.knows(id(3), id(7)));
+        assert!(!two.learns([id(7), id(8)], [&APART[0], &APART[1]]));
     }
 
     #[test]
@@ -109,9 +148,9 @@ mod tests {
             memo.remember(id(1), id(other));
             assert!(memo.knows(id(other), id(1)));
         }
-        assert!(!memo.knows(id(1), id(9)) && !memo.learns(id(1), id(9)));
+        assert!(!memo.knows(id(1), id(9)) && !memo.learns([id(1), id(9)], [&APART[0], &APART[1]]));
         assert!(!memo.knows(id(3), id(7)), "its place was taken many times");
-        assert!(memo.learns(id(3), id(7)));
+        assert!(memo.learns([id(3), id(7)], [&APART[0], &APART[1]]));
         assert_eq!(picture.pairs().len(), MOST_PAIRS);
     }
 }

@@ -74,11 +74,9 @@ fn logarithm(point: &GrowthPoint) -> f64 {
 
 /// Every variant that has times on two meshes of different sizes at least.
 pub fn growths(report: &Report) -> Vec<Growth> {
-    let several = |f: &dyn Fn(&crate::bench::Subject) -> String| {
-        report.scenes.iter().any(|scene| f(&scene.subject) != f(&report.scenes[0].subject))
-    };
-    let threads = several(&|subject| subject.threads.to_string());
-    let levels = several(&|subject| subject.simd.to_string());
+    let subjects = || report.scenes.iter().map(|scene| &scene.subject);
+    let threads = subjects().any(|subject| subject.threads != report.scenes[0].subject.threads);
+    let levels = subjects().any(|subject| subject.simd != report.scenes[0].subject.simd);
     let mut growths: Vec<Growth> = Vec::new();
     for scene in &report.scenes {
         for row in &scene.rows {

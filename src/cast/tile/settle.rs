@@ -66,12 +66,8 @@ pub(super) fn settle(
                 memory.levels.double += 1;
                 continue;
             }
-            if memory.same_plane.learns(own, others) {
-                continue;
-            }
             let [a, b] = [own, others].map(|id| frame.mesh.triangle(id));
-            if candidate::in_one_axis_plane(&a, &b) {
-                memory.same_plane.remember(own, others);
+            if memory.same_plane.learns([own, others], [&a, &b]) {
                 continue;
             }
         }
